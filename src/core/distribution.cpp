@@ -1,0 +1,31 @@
+#include "core/distribution.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/constants.h"
+
+namespace gradslc {
+
+DiscreteDistribution::DiscreteDistribution(const std::vector<double>& weights) : cdf_(weights.size() + 1, 0) {
+  std::size_t last_positive = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    assert(weights[i] >= 0);
+    cdf_[i + 1] = cdf_[i] + weights[i];
+    if (weights[i] > 0) last_positive = i;
+  }
+  total_ = cdf_.back();
+  if (total_ == 0) return;
+  for (double& value : cdf_) value /= total_;
+  std::fill(cdf_.begin() + static_cast<std::ptrdiff_t>(last_positive) + 1, cdf_.end(), 1.0);
+}
+
+DiscreteDistribution::Sample DiscreteDistribution::sample(double u) const {
+  assert(total_ > 0 && u >= 0 && u < 1);
+  const auto upper = std::upper_bound(cdf_.begin(), cdf_.end(), u);
+  const auto index = static_cast<std::size_t>(upper - cdf_.begin()) - 1;
+  const double p = probability(index);
+  return {index, p, std::min(static_cast<float>((u - cdf_[index]) / p), k_one_minus_epsilon)};
+}
+
+}  // namespace gradslc

@@ -1,0 +1,43 @@
+#pragma once
+// Maps from the unit square to the domains that are sampled, each with its density.
+
+#include "core/constants.h"
+#include "core/vec.h"
+
+namespace gradslc {
+
+/// Uniform on the unit disk, area measure 1/pi (Shirley and Chiu 1997: concentric, keeps strata compact).
+inline Vec2 square_to_disk(Vec2 u) {
+  const float a = 2 * u.x - 1, b = 2 * u.y - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  const bool horizontal = std::abs(a) > std::abs(b);
+  const float radius = horizontal ? a : b;
+  const float phi = horizontal ? k_pi / 4 * (b / a) : k_pi / 2 - k_pi / 4 * (a / b);
+  return {radius * std::cos(phi), radius * std::sin(phi)};
+}
+
+/// Direction of the upper hemisphere with pdf_solid_angle = cos / pi (Malley's method).
+inline Vec3 square_to_cosine_hemisphere(Vec2 u) {
+  const Vec2 d = square_to_disk(u);
+  return {d.x, d.y, std::sqrt(std::max(0.0f, 1 - d.x * d.x - d.y * d.y))};
+}
+inline float cosine_hemisphere_pdf_solid_angle(float cos_theta) { return std::max(cos_theta, 0.0f) * k_inv_pi; }
+
+/// Direction of the sphere with pdf_solid_angle = 1 / 4pi.
+inline Vec3 square_to_sphere(Vec2 u) {
+  const float z = 1 - 2 * u.x;
+  const float radius = std::sqrt(std::max(0.0f, 1 - z * z));
+  return {radius * std::cos(2 * k_pi * u.y), radius * std::sin(2 * k_pi * u.y), z};
+}
+
+/// Barycentric coordinates (b1, b2) of a point uniform on a triangle (Heitz 2019, "A Low-Distortion Map").
+inline Vec2 square_to_triangle(Vec2 u) {
+  if (u.y > u.x) {
+    const float b1 = u.x / 2;
+    return {b1, u.y - b1};
+  }
+  const float b2 = u.y / 2;
+  return {u.x - b2, b2};
+}
+
+}  // namespace gradslc

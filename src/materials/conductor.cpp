@@ -1,0 +1,26 @@
+#include "materials/conductor.h"
+
+namespace gradslc {
+
+float fresnel_conductor(float cos_theta, float eta, float k) {
+  const float cos2 = cos_theta * cos_theta, sin2 = 1 - cos2;
+  const float eta2 = eta * eta, k2 = k * k;
+  const float t0 = eta2 - k2 - sin2;
+  const float a2_plus_b2 = std::sqrt(t0 * t0 + 4 * eta2 * k2);
+  const float a = std::sqrt(std::max(0.0f, 0.5f * (a2_plus_b2 + t0)));
+  const float t1 = a2_plus_b2 + cos2;
+  const float t2 = 2 * a * cos_theta;
+  const float rs = (t1 - t2) / (t1 + t2);
+  const float t3 = cos2 * a2_plus_b2 + sin2 * sin2;
+  const float t4 = t2 * sin2;
+  const float rp = rs * (t3 - t4) / (t3 + t4);
+  return 0.5f * (rs + rp);
+}
+
+Rgb Conductor::fresnel(float cos_theta) const {
+  if (is_black(eta)) return specular_reflectance;
+  return specular_reflectance * Rgb(fresnel_conductor(cos_theta, eta.r, k.r), fresnel_conductor(cos_theta, eta.g, k.g),
+                                    fresnel_conductor(cos_theta, eta.b, k.b));
+}
+
+}  // namespace gradslc

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/bounds.h"
+#include "core/vec.h"
+
+namespace gradslc {
+
+/// A triangle mesh in world space.
+struct TriangleMesh {
+  std::string name;
+  std::vector<Point3> positions;
+  std::vector<Normal3> normals;  ///< per vertex, unit; empty: flat
+  std::vector<Vec2> uvs;         ///< per vertex; empty: barycentric coordinates serve
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  bool flip_normals = false;     ///< the geometric normal is the opposite of the winding's
+  std::uint32_t material = 0;
+  std::int32_t area_light = -1;  ///< index into SceneDescription::area_lights, or -1
+
+  Bounds3 bounds() const;
+};
+
+}  // namespace gradslc

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/bounds.h"
+#include "core/ray.h"
+#include "materials/material.h"
+#include "scene/camera.h"
+#include "scene/emitters.h"
+#include "scene/mesh.h"
+#include "scene/surface.h"
+
+namespace gradslc {
+
+/// What a loader makes of a scene file.
+struct SceneDescription {
+  std::vector<TriangleMesh> meshes;
+  std::vector<Material> materials;
+  std::vector<AreaLight> area_lights;
+  PerspectiveCamera camera;
+  std::vector<std::string> notes;  ///< what the file asks for that has no effect here, once each
+};
+
+/// Geometry, materials, emitters and camera, ready to trace. Immutable; all queries may run concurrently.
+class Scene {
+ public:
+  /// Builds the acceleration structure. Throws Error where a mesh is inconsistent.
+  explicit Scene(SceneDescription description);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  /// The nearest hit, whatever side of the surface.
+  std::optional<SurfacePoint> intersect(const Ray& ray) const;
+  /// Whether anything lies on the ray before its max_distance.
+  bool occluded(const Ray& ray) const;
+
+  const PerspectiveCamera& camera() const { return description_.camera; }
+  const Emitters& emitters() const { return emitters_; }
+  const std::vector<TriangleMesh>& meshes() const { return description_.meshes; }
+  const std::vector<Material>& materials() const { return description_.materials; }
+  const Material& material(const SurfacePoint& point) const { return description_.materials[point.material]; }
+  const std::vector<std::string>& notes() const { return description_.notes; }
+  Bounds3 bounds() const { return bounds_; }
+  std::size_t triangle_count() const;
+  /// Bytes of meshes and acceleration structure.
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Embree;
+  SceneDescription description_;
+  Emitters emitters_;
+  Bounds3 bounds_;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace gradslc

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/frame.h"
+#include "core/ray.h"
+#include "core/vec.h"
+
+namespace gradslc {
+
+constexpr std::uint32_t k_no_emitter = 0xffffffffu;
+
+/// A point on a surface of the scene.
+struct SurfacePoint {
+  Point3 position;
+  Normal3 geometric_normal;  ///< unit; side as the file's winding or the shape's definition says, not facing the ray
+  Frame shading;             ///< its n on the same side as geometric_normal
+  Vec2 uv;
+  std::uint32_t mesh = 0, triangle = 0;
+  std::uint32_t material = 0;
+  float error = 0;  ///< bound of the position's rounding error, scene units: how far rays must start from the surface
+};
+
+/// `point` moved off the surface to the side of `direction`, by its error bound: where rays may start and end.
+Point3 offset_position(const SurfacePoint& point, Vec3 direction);
+/// The same for a stored point that has no SurfacePoint any more.
+Point3 offset_position(Point3 position, Normal3 geometric_normal, float error, Vec3 direction);
+
+/// A ray that leaves `point` in the unit direction `direction`.
+Ray spawn_ray(const SurfacePoint& point, Vec3 direction, float max_distance = k_infinity);
+
+/// The open segment between two positions that are already offset; direction is not normalised, max_distance < 1.
+Ray segment(Point3 from, Point3 to);
+
+}  // namespace gradslc
