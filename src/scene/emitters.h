@@ -29,8 +29,8 @@ struct DirectSample {
 struct EmissionSample {
   SurfacePoint point;       ///< k = 0 vertex
   Vec3 direction;           ///< unit
-  Rgb power;                ///< Le cos / pdf: the power of one particle if one were traced
-  Rgb area_power;           ///< Le pi / pdf_area: what a k = 0 VPL carries, so that its f is 1/pi
+  Rgb power;                ///< Le cos / (pdf_area pdf_solid_angle): what the particle carries if one path is traced.
+                            ///< For diffuse emission also the flux of a k = 0 VPL, whose f is then 1/pi
 };
 
 /// All emitters of a scene, chosen in proportion to power (luminance); triangles of area lights in this version.
