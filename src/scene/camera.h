@@ -11,11 +11,17 @@ namespace gradslc {
 class PerspectiveCamera {
  public:
   PerspectiveCamera() = default;
-  /// The three axes are unit and orthogonal; `tan_half_x` and `tan_half_y` are half the image plane's extent at distance 1.
+  /// The three axes are unit and orthogonal; `tan_half_x` and `tan_half_y` are half the image plane's extent at
+  /// distance 1.
   PerspectiveCamera(Resolution resolution, Point3 position, Vec3 forward, Vec3 right, Vec3 up, float tan_half_x,
                     float tan_half_y)
-      : resolution_(resolution), position_(position), forward_(forward), right_(right), up_(up),
-        tan_half_x_(tan_half_x), tan_half_y_(tan_half_y) {}
+      : resolution_(resolution),
+        position_(position),
+        forward_(forward),
+        right_(right),
+        up_(up),
+        tan_half_x_(tan_half_x),
+        tan_half_y_(tan_half_y) {}
 
   Resolution resolution() const { return resolution_; }
   Point3 position() const { return position_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,10 +28,10 @@ struct DirectSample {
 
 /// A photon's start.
 struct EmissionSample {
-  SurfacePoint point;       ///< k = 0 vertex
-  Vec3 direction;           ///< unit
-  Rgb power;                ///< Le cos / (pdf_area pdf_solid_angle): what the particle carries if one path is traced.
-                            ///< For diffuse emission also the flux of a k = 0 VPL, whose f is then 1/pi
+  SurfacePoint point;  ///< k = 0 vertex
+  Vec3 direction;      ///< unit
+  Rgb power;           ///< Le cos / (pdf_area pdf_solid_angle): what the particle carries if one path is traced.
+                       ///< For diffuse emission also the flux of a k = 0 VPL, whose f is then 1/pi
 };
 
 /// All emitters of a scene, chosen in proportion to power (luminance); triangles of area lights in this version.
@@ -55,17 +56,18 @@ class Emitters {
 
  private:
   struct EmissiveTriangle {
-    Point3 a;
-    Vec3 ab, ac;
+    Point3 a, b, c;
     Normal3 normal;  // on the emitting side
-    float area;
+    double area;
     Rgb radiance;
     std::uint32_t mesh, triangle, material;
   };
-  const EmissiveTriangle* find(const SurfacePoint& hit) const;
+  static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+  std::size_t find(const SurfacePoint& hit) const;  // index into triangles_ or k_none
+  float pdf_solid_angle(std::size_t index, Point3 reference, Point3 position) const;
 
-  std::vector<EmissiveTriangle> triangles_;
-  std::vector<std::uint32_t> mesh_first_;  // per mesh: index of its first emissive triangle, or k_no_emitter
+  std::vector<EmissiveTriangle> triangles_;  // all triangles of the meshes that emit, mesh by mesh
+  std::vector<std::uint32_t> mesh_first_;    // per mesh: index of its first emissive triangle, or k_no_emitter
   DiscreteDistribution by_power_;
   Rgb power_;
 };

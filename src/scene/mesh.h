@@ -17,11 +17,18 @@ struct TriangleMesh {
   std::vector<Normal3> normals;  ///< per vertex, unit; empty: flat
   std::vector<Vec2> uvs;         ///< per vertex; empty: barycentric coordinates serve
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  bool flip_normals = false;     ///< the geometric normal is the opposite of the winding's
+  bool flip_normals = false;  ///< the geometric normal is the opposite of the winding's
   std::uint32_t material = 0;
   std::int32_t area_light = -1;  ///< index into SceneDescription::area_lights, or -1
 
+  /// Of the vertices that triangles use.
   Bounds3 bounds() const;
 };
+
+/// Throws Error (input) that names the mesh where an index is out of range, a value is not finite, or the number of
+/// normals or uvs differs from that of the positions.
+void check_mesh(const TriangleMesh& mesh);
+/// Drops the triangles without area, which nothing can hit. The mesh must have passed check_mesh().
+void remove_empty_triangles(TriangleMesh& mesh);
 
 }  // namespace gradslc

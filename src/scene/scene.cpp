@@ -1,0 +1,183 @@
+#include "scene/scene.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "scene/triangle.h"
+
+namespace gradslc {
+namespace {
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+RTCRay to_embree(const Ray& ray) {
+  RTCRay out{};
+  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
+  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
+  // Distances start above 0: where a ray starts exactly on another surface's plane, as in corners, that is no hit.
+  out.tnear = std::numeric_limits<float>::min();
+  out.tfar = ray.max_distance;
+  out.mask = 0xffffffffu;
+  return out;
+}
+
+Vec2 interpolate_uv(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, float b1, float b2) {
+  if (mesh.uvs.empty()) return {b1, b2};
+  return (1 - b1 - b2) * mesh.uvs[t[0]] + b1 * mesh.uvs[t[1]] + b2 * mesh.uvs[t[2]];
+}
+
+/// dp/du of a triangle (any length), zero where the uvs are degenerate.
+Vec3 tangent_from_uvs(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const Vec3 ab = mesh.positions[t[1]] - mesh.positions[t[0]], ac = mesh.positions[t[2]] - mesh.positions[t[0]];
+  if (mesh.uvs.empty()) return ab;
+  const Vec2 uv_ab = mesh.uvs[t[1]] - mesh.uvs[t[0]], uv_ac = mesh.uvs[t[2]] - mesh.uvs[t[0]];
+  const float determinant = uv_ab.x * uv_ac.y - uv_ab.y * uv_ac.x;
+  const Vec3 tangent = uv_ac.y * ab - uv_ab.y * ac;
+  return determinant < 0 ? -tangent : determinant > 0 ? tangent : Vec3();
+}
+
+/// The interpolated normal on the side of the geometric one; that one itself where there is none.
+Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, float b1, float b2,
+                       Normal3 geometric) {
+  if (mesh.normals.empty()) return geometric;
+  const Vec3 sum =
+      (1 - b1 - b2) * as_vec(mesh.normals[t[0]]) + b1 * as_vec(mesh.normals[t[1]]) + b2 * as_vec(mesh.normals[t[2]]);
+  const float squared = length_squared(sum);
+  if (!(squared > 0)) return geometric;
+  return face_forward(as_normal(sum / std::sqrt(squared)), as_vec(geometric));
+}
+
+}  // namespace
+
+/// Device, scene and what they use of memory.
+struct Scene::Embree {
+  std::atomic<std::ptrdiff_t> bytes = 0;
+  std::unique_ptr<RTCDeviceTy, DeviceRelease> device;
+  std::unique_ptr<RTCSceneTy, SceneRelease> scene;
+
+  explicit Embree(const std::vector<TriangleMesh>& meshes);
+  void attach(const TriangleMesh& mesh, unsigned int id);
+  void check() const;
+};
+
+Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes) : device(rtcNewDevice(nullptr)) {
+  if (!device)
+    throw_failure("", fmt::format("Embree cannot be started (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
+  const auto count_bytes = [](void* user, ssize_t change, bool) {
+    static_cast<Embree*>(user)->bytes += change;
+    return true;
+  };
+  rtcSetDeviceMemoryMonitorFunction(device.get(), count_bytes, this);
+  scene.reset(rtcNewScene(device.get()));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if (!meshes[i].triangles.empty()) attach(meshes[i], static_cast<unsigned int>(i));
+  rtcCommitScene(scene.get());
+  check();
+}
+
+void Scene::Embree::attach(const TriangleMesh& mesh, unsigned int id) {
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Copies: Embree reads 16 bytes for each vertex of 12, beyond the end of a shared buffer.
+  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3),
+                                            mesh.positions.size());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          sizeof(mesh.triangles[0]), mesh.triangles.size());
+  if (positions && indices) {
+    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Point3*>(positions));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene.get(), geometry, id);
+  }
+  rtcReleaseGeometry(geometry);
+  check();
+}
+
+void Scene::Embree::check() const {
+  const RTCError error = rtcGetDeviceError(device.get());
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw_failure("", "not enough memory for the acceleration structure");
+  if (error != RTC_ERROR_NONE)
+    throw_failure("",
+                  fmt::format("Embree cannot build the acceleration structure (error {})", static_cast<int>(error)));
+}
+
+Scene::Scene(SceneDescription description) : description_(std::move(description)) {
+  for (TriangleMesh& mesh : description_.meshes) {
+    check_mesh(mesh);
+    if (mesh.material >= description_.materials.size())
+      throw_input_error("", fmt::format("mesh \"{}\": has material {}, there are {}", mesh.name, mesh.material,
+                                        description_.materials.size()));
+    if (mesh.area_light >= static_cast<std::int64_t>(description_.area_lights.size()))
+      throw_input_error("", fmt::format("mesh \"{}\": has area light {}, there are {}", mesh.name, mesh.area_light,
+                                        description_.area_lights.size()));
+    remove_empty_triangles(mesh);
+    bounds_.extend(mesh.bounds());
+  }
+  emitters_ = Emitters(description_.meshes, description_.area_lights);
+  embree_ = std::make_unique<Embree>(description_.meshes);
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
+  RTCRayHit hit{};
+  hit.ray = to_embree(ray);
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(embree_->scene.get(), &context, &hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+  const TriangleMesh& mesh = description_.meshes[hit.hit.geomID];
+  const auto& t = mesh.triangles[hit.hit.primID];
+  const Point3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+  const float b1 = hit.hit.u, b2 = hit.hit.v;
+  const Normal3 winding = triangle_plane(a, b, c).normal;
+  const Normal3 normal = mesh.flip_normals ? -winding : winding;
+  const auto [position, error] = triangle_position(a, b, c, normal, b1, b2);
+  const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
+  return SurfacePoint{position,
+                      normal,
+                      frame_from_normal_and_tangent(shading, tangent_from_uvs(mesh, t)),
+                      interpolate_uv(mesh, t, b1, b2),
+                      hit.hit.geomID,
+                      hit.hit.primID,
+                      mesh.material,
+                      error};
+}
+
+bool Scene::occluded(const Ray& ray) const {
+  RTCRay shadow = to_embree(ray);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(embree_->scene.get(), &context, &shadow);
+  return shadow.tfar < 0;
+}
+
+std::size_t Scene::triangle_count() const {
+  std::size_t count = 0;
+  for (const TriangleMesh& mesh : description_.meshes) count += mesh.triangles.size();
+  return count;
+}
+
+std::size_t Scene::memory_bytes() const {
+  std::size_t bytes = static_cast<std::size_t>(embree_->bytes.load());
+  for (const TriangleMesh& mesh : description_.meshes)
+    bytes += mesh.positions.size() * sizeof(Point3) + mesh.normals.size() * sizeof(Normal3) +
+             mesh.uvs.size() * sizeof(Vec2) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  return bytes;
+}
+
+}  // namespace gradslc

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "core/vec.h"
+
+namespace gradslc {
+
+/// Twice the area and the unit normal of the winding a, b, c. `normal` is meaningless where `double_area` is 0.
+struct TrianglePlane {
+  double double_area;
+  Normal3 normal;
+};
+TrianglePlane triangle_plane(Point3 a, Point3 b, Point3 c);
+
+/// A point of a triangle, rounded to float once.
+struct TrianglePosition {
+  Point3 position;
+  float error;  ///< how far along the normal rays must start to be on the normal's side of the triangle for sure
+};
+
+/// The point (1 - b1 - b2) a + b1 b + b2 c of a triangle with positive area; b1, b2 >= 0, b1 + b2 <= 1 up to rounding.
+///
+/// `error` scales with the scene and is the sum of two parts, u = 2^-24 the unit roundoff:
+/// - 2 u (|n| . |p|): the position is interpolated in double and rounded to float once per axis, which moves it by at
+///   most u |p| per axis (Higham 2002, section 2.2), projected onto the normal; and once more when it is offset.
+/// - k u L s: the plane's distance as the ray tracer computes it from single-precision edges, L the longest edge and
+///   s >= 1 the amplification of rounding in the cross product of slender triangles (product of the two shorter edges
+///   over twice the area). First-order analysis gives k = 6 (difference to the origin 1, cross product 2, dot product
+///   3); k = 12 is used.
+TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, Normal3 normal, float b1, float b2);
+
+}  // namespace gradslc
