@@ -7,7 +7,8 @@
 
 namespace gradslc {
 
-/// Where bad input stands: a file, and within it a line and column (1-based, 0 = unknown) and a JSON pointer or element.
+/// Where bad input stands: a file, and within it a line and column (1-based, 0 = unknown) and a JSON pointer or
+/// element.
 struct SourcePosition {
   std::string file;
   int line = 0, column = 0;
@@ -15,7 +16,8 @@ struct SourcePosition {
   std::string excerpt;  ///< text of the line, shown under the message, its token at `column` underlined; may be empty
 };
 
-/// The one exception type of the project. Caught in the CLI, printed as one line (plus the excerpt), and turned into the exit code.
+/// The one exception type of the project. Caught in the CLI, printed as one line (plus the excerpt), and turned into
+/// the exit code.
 class Error : public std::exception {
  public:
   enum class Kind {
