@@ -1,6 +1,10 @@
 #include "scene/loaders/mitsuba_shapes.h"
 
 #include <array>
+#include <filesystem>
+#include <system_error>
+
+#include "scene/loaders/obj.h"
 
 namespace gradslc {
 namespace {
@@ -55,9 +59,24 @@ TriangleMesh make_cube(MitsubaDocument&, MitsubaProperties& properties) {
   return mesh;
 }
 
+TriangleMesh make_obj(MitsubaDocument& document, MitsubaProperties& properties) {
+  const std::string name = properties.text("filename", "");
+  if (name.empty()) properties.fail("filename", "an obj shape needs a filename");
+  const std::filesystem::path file = document.resolve_path(properties.element(), name);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored))
+    properties.fail("filename", "file \"" + file.string() + "\" does not exist");
+  TriangleMesh mesh = load_obj(file, {.to_world = properties.transform("to_world"),
+                                      .face_normals = properties.boolean("face_normals", false),
+                                      .flip_tex_coords = properties.boolean("flip_tex_coords", true)});
+  mesh.flip_normals = properties.boolean("flip_normals", false);
+  return mesh;
+}
+
 constexpr ShapeEntry k_shapes[] = {
     {"rectangle", "the square [-1,1]^2 at z = 0, normal +z", make_rectangle},
     {"cube", "the surface of [-1,1]^3, normals outwards", make_cube},
+    {"obj", "the polygons of a Wavefront OBJ file", make_obj},
 };
 
 }  // namespace
