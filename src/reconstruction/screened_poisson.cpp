@@ -14,7 +14,7 @@ namespace {
 /// One channel, row-major. Double: a small weight of the primal makes the matrix too ill-conditioned for float.
 using Field = std::vector<double>;
 
-constexpr std::size_t k_pixels_per_chunk = 16384;
+constexpr std::size_t k_pixels_per_chunk = 32768;
 
 std::size_t rows_per_chunk(Resolution resolution) {
   return std::max<std::size_t>(1, k_pixels_per_chunk / static_cast<std::size_t>(resolution.width));

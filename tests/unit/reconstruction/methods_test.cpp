@@ -82,13 +82,18 @@ TEST(AllMethods, ScaleWithTheImage) {
 }
 
 TEST(AllMethods, GiveTheSameBitsForAnyNumberOfThreads) {
-  const ReconstructionInput input = noisy_input(3, test_truth({190, 101}));
-  for (const auto& [name, method] : all_methods()) {
+  const ReconstructionInput input = noisy_input(3, test_truth({400, 101}));  // several chunks
+  const std::map<std::string, double> coarse = {{"relative_residual", 0.05}};
+  std::vector<std::unique_ptr<Reconstruction>> methods;
+  methods.push_back(make_reconstruction("l2", coarse));
+  methods.push_back(make_reconstruction("weighted", coarse));
+  for (const std::unique_ptr<Reconstruction>& method : methods) {
     set_thread_count(1);
-    const RgbImage expected = method->reconstruct(input).image;
+    const ReconstructionResult expected = method->reconstruct(input);
+    EXPECT_GT(expected.statistics.iterations, 0);
     for (const int threads : {2, 7}) {
       set_thread_count(threads);
-      EXPECT_EQ(method->reconstruct(input).image, expected) << name << ", " << threads;
+      EXPECT_EQ(method->reconstruct(input).image, expected.image) << threads;
     }
     set_thread_count(0);
   }

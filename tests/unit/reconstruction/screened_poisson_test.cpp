@@ -191,8 +191,8 @@ TEST(ScreenedPoisson, XAndYAreAlike) {
 }
 
 TEST(ScreenedPoisson, SameBitsForAnyNumberOfThreads) {
-  const RandomProblem random({307, 211}, 14);  // several chunks of rows and of pixels
-  constexpr SolverOptions k_options{.max_iterations = 20};
+  const RandomProblem random({400, 211}, 14);  // several chunks of rows and of pixels
+  constexpr SolverOptions k_options{.max_iterations = 8};
   set_thread_count(1);
   const ReconstructionResult expected = solve(random.problem(), k_options);
   for (const int threads : {2, 7}) {
