@@ -12,7 +12,8 @@ namespace gradslc {
 namespace {
 
 LightTracingSettings settings_for(std::int64_t paths, int bounces, std::uint64_t seed = 1) {
-  return {.light_paths = paths, .max_bounces = bounces, .lobes = {}, .sampler = SamplerKind::sobol, .seed = seed, .set = 0};
+  return {
+      .light_paths = paths, .max_bounces = bounces, .lobes = {}, .sampler = SamplerKind::sobol, .seed = seed, .set = 0};
 }
 
 bool same_bits(const std::vector<Vpl>& a, const std::vector<Vpl>& b) {
@@ -74,7 +75,8 @@ TEST(LightTracing, LeavesNoVplOnMirrorsNorOnBlackWalls) {
   ASSERT_FALSE(set.vpls.empty());
   for (const Vpl& vpl : set.vpls) {
     EXPECT_GT(vpl.max_albedo, 0);
-    EXPECT_FALSE(vpl.position.z > 0.999f) << "the back wall is a mirror";
+    const bool on_back_wall = vpl.position.z > 0.999f && std::abs(vpl.geometric_normal.decode().z) > 0.9f;
+    EXPECT_FALSE(on_back_wall) << "the back wall is a mirror";
   }
 }
 
