@@ -48,12 +48,13 @@ void MomentImage::Accumulator::close_set() {
 }
 
 void MomentImage::Accumulator::merge(const Accumulator& other) {
-  assert(open_count == 0 && other.open_count == 0);
   for (int c = 0; c < 3; ++c) {
     sum[c] += other.sum[c];
+    open_sum[c] += other.open_sum[c];
     square_sum[c] += other.square_sum[c];
   }
   count += other.count;
+  open_count += other.open_count;
   sets += other.sets;
   invalid += other.invalid;
 }
@@ -96,7 +97,10 @@ void MomentImage::close_set() {
 void MomentImage::merge(const MomentImage& other) {
   assert(resolution_ == other.resolution_);
   parallel_for(pixels_.size(), k_pixels_per_chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) pixels_[i].merge(other.pixels_[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      assert(pixels_[i].open_count == 0 && other.pixels_[i].open_count == 0);
+      pixels_[i].merge(other.pixels_[i]);
+    }
   });
 }
 

@@ -38,7 +38,7 @@ class MomentImage {
 
     void add(Rgb value);
     void close_set();
-    void merge(const Accumulator& other);
+    void merge(const Accumulator& other);  ///< open sets become one
     Rgb mean() const;
     Rgb variance_of_mean() const;
     bool operator==(const Accumulator&) const = default;

@@ -1,0 +1,85 @@
+#include "film/film_io.h"
+
+#include <cassert>
+#include <utility>
+
+#include "core/parallel.h"
+
+namespace gradslc {
+namespace {
+
+constexpr std::size_t k_pixels_per_chunk = 16384;
+
+template <class AccumulatorOf>
+MomentLayers layers_of(Resolution resolution, const AccumulatorOf& accumulator_of) {
+  MomentLayers layers{RgbImage(resolution), RgbImage(resolution), Image<float>(resolution)};
+  parallel_for(resolution.pixels(), k_pixels_per_chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const MomentImage::Accumulator accumulator = accumulator_of(i);
+      layers.mean[i] = accumulator.mean();
+      layers.variance[i] = accumulator.variance_of_mean();
+      layers.count[i] = static_cast<float>(accumulator.count);
+    }
+  });
+  return layers;
+}
+
+struct NamedMoment {
+  const char* name;
+  MomentImage FilmHalf::*image;
+};
+constexpr NamedMoment k_moments[] = {{"primal", &FilmHalf::primal}, {"dx", &FilmHalf::dx}, {"dy", &FilmHalf::dy}};
+
+void add_half(const std::string& moment, const std::string& half, const MomentImage& image,
+              std::map<std::string, ExrLayer>& layers) {
+  MomentLayers found = moment_layers(image);
+  layers[moment + "_" + half] = std::move(found.mean);
+  layers[moment + "_variance_" + half] = std::move(found.variance);
+  layers[moment + "_count_" + half] = std::move(found.count);
+}
+
+Image<float> invalid_layer(const Film& film) {
+  Image<float> invalid(film.resolution());
+  for (int h = 0; h < 2; ++h)
+    for (const NamedMoment& moment : k_moments) {
+      const auto& accumulators = (film.half(h).*moment.image).accumulators();
+      for (std::size_t i = 0; i < accumulators.size(); ++i) invalid[i] += static_cast<float>(accumulators[i].invalid);
+    }
+  return invalid;
+}
+
+}  // namespace
+
+MomentLayers moment_layers(const MomentImage& image) {
+  return layers_of(image.resolution(), [&](std::size_t i) { return image.accumulators()[i]; });
+}
+
+MomentLayers moment_layers(const MomentImage& a, const MomentImage& b) {
+  assert(a.resolution() == b.resolution());
+  return layers_of(a.resolution(), [&](std::size_t i) {
+    MomentImage::Accumulator both = a.accumulators()[i];
+    both.merge(b.accumulators()[i]);
+    return both;
+  });
+}
+
+std::map<std::string, ExrLayer> film_layers(const Film& film) {
+  std::map<std::string, ExrLayer> layers;
+  for (const NamedMoment& moment : k_moments) {
+    const MomentImage &a = film.half(0).*moment.image, &b = film.half(1).*moment.image;
+    const bool is_primal = moment.image == &FilmHalf::primal;
+    if (!is_primal && !film.layers().gradients) continue;
+    const std::string name = moment.name;
+    MomentLayers both = moment_layers(a, b);
+    layers[name] = std::move(both.mean);
+    layers[is_primal ? "variance" : name + "_variance"] = std::move(both.variance);
+    add_half(name, "a", a, layers);
+    add_half(name, "b", b, layers);
+  }
+  layers["invalid"] = invalid_layer(film);
+  if (film.layers().parts)
+    for (int p = 0; p < k_part_count; ++p) layers[k_part_names[p]] = film.part(static_cast<Part>(p));
+  return layers;
+}
+
+}  // namespace gradslc

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "film/exr.h"
+#include "film/film.h"
+
+namespace gradslc {
+
+/// What reconstructions and files need of a moment image.
+struct MomentLayers {
+  RgbImage mean;
+  RgbImage variance;   ///< of the mean; infinite with fewer than two sets
+  Image<float> count;  ///< samples
+};
+/// Both halves of an image together: means weighted by counts, variances from all sets.
+MomentLayers moment_layers(const MomentImage& a, const MomentImage& b);
+MomentLayers moment_layers(const MomentImage& image);
+
+/// The layers of a run's EXR beside the default one, which is the caller's image:
+/// `primal`, `variance` (of the primal), `invalid` (samples per pixel, over primal, dx and dy);
+/// with gradients `dx`, `dy`, `dx_variance`, `dy_variance`;
+/// per half h = a, b what is needed to reconstruct again: `primal_h`, `primal_variance_h`, `primal_count_h`, with
+/// gradients the same for dx and dy; with parts `direct`, `vpl`, `compensation`, `specular`, `prefix`.
+/// Counts and `invalid` have one channel.
+std::map<std::string, ExrLayer> film_layers(const Film& film);
+
+}  // namespace gradslc
