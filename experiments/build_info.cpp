@@ -1,9 +1,9 @@
 #include "experiments/build_info.h"
 
+#include <OpenEXR/OpenEXRConfig.h>
 #include <embree3/rtcore_config.h>
 #include <fmt/core.h>
 #include <omp.h>
-#include <OpenEXR/OpenEXRConfig.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
 

@@ -4,8 +4,8 @@
 
 namespace gradslc {
 
-/// What this program was built from and with, as manifests record it: git commit and whether the tree had changes, compiler,
-/// flags, versions of libraries.
+/// What this program was built from and with, as manifests record it: git commit and whether the tree had changes,
+/// compiler, flags, versions of libraries.
 nlohmann::json build_info();
 
 /// The machine and its state now: processor, cores, threads that are used, load averages, operating system.

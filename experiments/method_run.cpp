@@ -10,8 +10,8 @@
 namespace gradslc {
 namespace {
 
-constexpr int k_halvings = 7;                // of a budget in seconds, for its curve
-constexpr std::size_t k_recent_passes = 8;   // that the next pass's time is predicted from
+constexpr int k_halvings = 7;               // of a budget in seconds, for its curve
+constexpr std::size_t k_recent_passes = 8;  // that the next pass's time is predicted from
 
 }  // namespace
 
@@ -100,7 +100,7 @@ PointImage MethodRun::make_point() {
   point.render = render_;
   point.rays = integrator_->statistics().rays;
   point.invalid_samples = film_->invalid_samples();
-  point.last_pass_seconds = predicted_pass_seconds();
+  point.pass_seconds = predicted_pass_seconds();
   FinalImage result;
   point.reconstruct = measure(clock_, [&] { result = final_image(*film_, reconstruction_.get()); });
   point.reconstruction = result.reconstruction;

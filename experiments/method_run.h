@@ -13,14 +13,14 @@ namespace gradslc {
 
 /// Where a method stood when it gave an image: a point of its convergence curve.
 struct CurvePoint {
-  double target = 0;  ///< passes or wall seconds that the point was planned for
+  double target = 0;   ///< passes or wall seconds that the point was planned for
   bool final = false;  ///< the whole budget
   int passes = 0;
   Seconds prepare, render;
   Seconds reconstruct;  ///< of this point alone
   std::uint64_t rays = 0;
   std::uint64_t invalid_samples = 0;
-  double last_pass_seconds = 0;  ///< predicted wall time of one more pass
+  double pass_seconds = 0;  ///< predicted wall time of one more pass
   std::optional<ReconstructionStatistics> reconstruction;
 
   /// What the point cost: earlier points' reconstructions are not part of it.
@@ -37,8 +37,8 @@ struct PointImage {
 /// 1/128 of the budget.
 std::vector<double> curve_targets(const Budget& budget);
 
-/// One method on its way through its budget (DESIGN 8). Does one unit of work at a time, so that methods can take turns;
-/// its clock runs only inside step().
+/// One method on its way through its budget (DESIGN 8). Does one unit of work at a time, so that methods can take
+/// turns; its clock runs only inside step().
 class MethodRun {
  public:
   struct Plan {
@@ -56,17 +56,17 @@ class MethodRun {
   /// Share of the budget that is used, in seconds or passes, at most 1; 1 when done.
   double progress() const;
   /// Prepares the method, or renders a pass, or gives the image of a curve point that is due; only while !done().
-  /// A point is due when its passes are there, or when one more pass and the point's reconstruction, as long as earlier ones
-  /// took, would end beyond its seconds. Points whose seconds passed by more than a pass before there was an image are left
-  /// out, except the final one, which gets one pass at least.
+  /// A point is due when its passes are there, or when one more pass and the point's reconstruction, as long as earlier
+  /// ones took, would end beyond its seconds. Points whose seconds passed by more than a pass before there was an image
+  /// are left out, except the final one, which gets one pass at least.
   std::optional<PointImage> step();
 
   const std::string& name() const { return plan_.name; }
   int passes() const { return passes_; }
   Seconds prepare_time() const { return prepare_; }
   Seconds render_time() const { return render_; }
-  const Film& film() const { return *film_; }        ///< only after the first step
-  Film take_film();                                  ///< only when done; sets that are still open are closed
+  const Film& film() const { return *film_; }  ///< only after the first step
+  Film take_film();                            ///< only when done; sets that are still open are closed
   IntegratorTraits traits() const { return integrator_->traits(); }
   IntegratorStatistics statistics() const { return integrator_->statistics(); }
 

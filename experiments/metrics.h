@@ -22,8 +22,9 @@ struct MetricEntry {
 /// The only list of metrics, in the order in which they are returned and written.
 std::span<const MetricEntry> metric_registry();
 
-/// What an image is compared with. With two independent halves the reference is their mean and the squares of mse, relmse
-/// and relmse_trimmed are products (x - a)(x - b), which do not carry the reference's noise (DESIGN 8); with one image
+/// What an image is compared with. With two independent halves the reference is their mean and the squares of mse,
+/// relmse and relmse_trimmed are products (x - a)(x - b), which do not carry the reference's noise (DESIGN 8); with one
+/// image
 /// (`b` empty) they are plain squares.
 struct ReferenceImages {
   RgbImage a, b;
@@ -33,8 +34,8 @@ struct ReferenceImages {
   RgbImage mean() const;
 };
 
-/// All metrics of metric_registry(). Error (input) where the sizes differ, a value is not finite, or the reference's mean is
-/// not positive, since relative errors have no meaning then.
+/// All metrics of metric_registry(). Error (input) where the sizes differ, a value is not finite, or the reference's
+/// mean is not positive, since relative errors have no meaning then.
 std::vector<Metric> compare_images(const RgbImage& image, const ReferenceImages& reference);
 /// The same against a single image: plain squares, which carry its noise.
 std::vector<Metric> compare_images(const RgbImage& image, const RgbImage& reference);

@@ -62,7 +62,7 @@ const RgbImage& half_layer(const ExrImage& content, const char* name, const std:
 Reference read_reference(const std::filesystem::path& file) {
   Reference reference;
   const nlohmann::json about = nlohmann::json::parse(read_file(with_extension(file, ".json")), nullptr, false);
-  if (about.value("sha256", "") != sha256_of_file(file)) {
+  if (!about.is_object() || about.value("sha256", "") != sha256_of_file(file)) {
     throw_input_error(file.string(), "differs from its checksum; remove the file to render it again");
   }
   const ExrImage content = read_exr(file);
@@ -81,7 +81,8 @@ Reference rendered_reference(int spp, const Scene& scene, const nlohmann::json& 
   if (std::filesystem::exists(with_extension(file, ".json"))) {
     reference = read_reference(file);
     log(fmt::format("reference: {} spp, kept in {}", spp, file.string()));
-    if (reference.about.at("build") != build_info()) log("reference: was rendered by another build of this program");
+    if (reference.about.value("build", nlohmann::json()) != build_info())
+      log("reference: was rendered by another build of this program");
   } else {
     const int passes = passes_per_half(spp);
     const Seconds begin = makers.clock();
@@ -128,8 +129,8 @@ nlohmann::json reference_key(const std::string& scene_hash, Resolution resolutio
                              int spp) {
   nlohmann::json estimand = to_json(settings);
   estimand.erase("seed");
-  return {{"integrator", k_integrator},   {"scene", scene_hash},    {"width", resolution.width},
-          {"height", resolution.height}, {"settings", estimand},   {"spp", 2 * passes_per_half(spp)},
+  return {{"integrator", k_integrator},  {"scene", scene_hash},  {"width", resolution.width},
+          {"height", resolution.height}, {"settings", estimand}, {"spp", 2 * passes_per_half(spp)},
           {"seed", k_reference_seed}};
 }
 

@@ -67,18 +67,9 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
 
 RenderResult take_result(MethodRun& run, PointImage final, nlohmann::json machine) {
   const CurvePoint& point = final.point;
-  return {std::move(final.image),
-          run.take_film(),
-          point.passes,
-          point.total().wall,
-          point.total().cpu,
-          point.prepare.wall,
-          point.render.wall,
-          point.reconstruct.wall,
-          run.statistics(),
-          run.traits(),
-          point.reconstruction,
-          std::move(machine)};
+  return {std::move(final.image), run.take_film(),    point.passes,         point.total().wall,
+          point.total().cpu,      point.prepare.wall, point.render.wall,    point.reconstruct.wall,
+          run.statistics(),       run.traits(),       point.reconstruction, std::move(machine)};
 }
 
 void write_render(const std::filesystem::path& path, const RenderResult& result, const nlohmann::json& manifest) {

@@ -12,9 +12,9 @@ namespace gradslc {
 /// A method's image at the end of its budget, and what it cost.
 struct RenderResult {
   RgbImage image;
-  Film film;
+  Film film{Resolution{}, FilmLayers{}};
   int passes = 0;
-  double wall_seconds = 0, cpu_seconds = 0;  ///< prepare + render + reconstruct
+  double wall_seconds = 0, cpu_seconds = 0;                                 ///< prepare + render + reconstruct
   double prepare_seconds = 0, render_seconds = 0, reconstruct_seconds = 0;  ///< wall
   IntegratorStatistics statistics;
   IntegratorTraits traits;
@@ -22,8 +22,8 @@ struct RenderResult {
   nlohmann::json machine;  ///< machine_info() when rendering began
 };
 
-/// Renders one method to the end of its budget. Where that is in seconds and the method has a reconstruction, it is also run
-/// once at half of the budget, uncharged, so that the last one's time can be predicted.
+/// Renders one method to the end of its budget. Where that is in seconds and the method has a reconstruction, it is
+/// also run once at half of the budget, uncharged, so that the last one's time can be predicted.
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
                            const Budget& budget, bool parts, const Progress& progress);
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
@@ -32,9 +32,9 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
 /// The result of a run that is done; `final` is its last point. The run must not be used afterwards.
 RenderResult take_result(MethodRun& run, PointImage final, nlohmann::json machine);
 
-/// Writes the image with the film's layers as EXR to `path`, and beside it, with the extension .json, `manifest` with what is
-/// known here added: passes, stage timings, counters, build, machine, peak memory, the image's mean and checksum.
-/// Both all or nothing, the manifest last: where it exists, the image is complete.
+/// Writes the image with the film's layers as EXR to `path`, and beside it, with the extension .json, `manifest` with
+/// what is known here added: passes, stage timings, counters, build, machine, peak memory, the image's mean and
+/// checksum. Both all or nothing, the manifest last: where it exists, the image is complete.
 void write_render(const std::filesystem::path& path, const RenderResult& result, const nlohmann::json& manifest);
 
 /// A method's plan as manifests hold it.

@@ -125,7 +125,7 @@ std::string to_csv(std::span<const ResultRow> rows) {
   const std::vector<Column> all = columns();
   std::string text;
   const auto add_line = [&](const std::function<std::string(const Column&)>& field) {
-    for (std::size_t c = 0; c < all.size(); ++c) text += (c == 0 ? "" : ",") + field(all[c]);
+    for (std::size_t c = 0; c < all.size(); ++c) text += fmt::format("{}{}", c == 0 ? "" : ",", field(all[c]));
     text += '\n';
   };
   add_line([](const Column& column) { return column.name; });
@@ -155,7 +155,8 @@ std::vector<ResultRow> read_results(const std::filesystem::path& file) {
     ResultRow& row = rows.emplace_back();
     for (const auto& [index, column] : found) {
       if (!column.parse(row, record.fields[index])) {
-        throw_input_error(where, fmt::format("\"{}\" is no value for the column {}", record.fields[index], column.name));
+        throw_input_error(where,
+                          fmt::format("\"{}\" is no value for the column {}", record.fields[index], column.name));
       }
     }
   }

@@ -14,16 +14,16 @@ namespace gradslc {
 /// One line of results.csv: a method at one curve point of one repeat.
 struct ResultRow {
   std::string scene, method;
-  int point = 0;   ///< of the sweep; 0 without one
-  int repeat = 0;  ///< from 0
-  int passes = 0;  ///< = samples per pixel
+  int point = 0;            ///< of the sweep; 0 without one
+  int repeat = 0;           ///< from 0
+  int passes = 0;           ///< = samples per pixel
   double wall_seconds = 0;  ///< prepare + render + this point's reconstruct
   double cpu_seconds = 0;   ///< of the same
   double prepare_seconds = 0, render_seconds = 0, reconstruct_seconds = 0;  ///< wall
   std::uint64_t rays = 0;
-  std::vector<Metric> metrics;  ///< all of metric_registry(), or none without a reference
-  double target = 0;            ///< passes or seconds that the curve point was planned for
-  bool final = false;           ///< the whole budget
+  std::vector<Metric> metrics;            ///< all of metric_registry(), or none without a reference
+  double target = 0;                      ///< passes or seconds that the curve point was planned for
+  bool final = false;                     ///< the whole budget
   std::optional<double> budget_miss;      ///< wall_seconds / budget - 1; final points of budgets in seconds
   std::optional<double> primal_relmse;    ///< of the image without its reconstruction, where it has one
   std::optional<double> reference_noise;  ///< relmse of the reference itself
@@ -43,7 +43,8 @@ std::span<const FlagEntry> flag_registry();
 
 /// Rows as CSV (RFC 4180, but lines end with a line feed), with a header; numbers so that reading gives the same bits.
 std::string to_csv(std::span<const ResultRow> rows);
-/// The rows of a CSV file with at least the header's columns in any order. Error (input) with the line where it is broken.
+/// The rows of a CSV file with at least the header's columns in any order. Error (input) with the line where it is
+/// broken.
 std::vector<ResultRow> read_results(const std::filesystem::path& file);
 
 }  // namespace gradslc

@@ -33,8 +33,8 @@ double beta_continued_fraction(double a, double b, double x) {
 double incomplete_beta(double a, double b, double x) {
   if (x <= 0) return 0;
   if (x >= 1) return 1;
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) +
-                                b * std::log1p(-x));
+  const double front =
+      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
   if (x < (a + 1) / (a + b + 2)) return front * beta_continued_fraction(a, b, x) / a;
   return 1 - front * beta_continued_fraction(b, a, 1 - x) / b;
 }
@@ -70,6 +70,8 @@ Estimate estimate_mean(std::span<const double> values) {
   return {mean, student_t_quantile(0.975, count - 1) * standard_error, count};
 }
 
-bool intervals_overlap(const Estimate& a, const Estimate& b) { return a.lower() <= b.upper() && b.lower() <= a.upper(); }
+bool intervals_overlap(const Estimate& a, const Estimate& b) {
+  return a.lower() <= b.upper() && b.lower() <= a.upper();
+}
 
 }  // namespace gradslc

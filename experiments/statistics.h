@@ -4,7 +4,8 @@
 
 namespace gradslc {
 
-/// The value t with P(T <= t) = probability for Student's t distribution; probability in (0, 1), degrees_of_freedom >= 1.
+/// The value t with P(T <= t) = probability for Student's t distribution; probability in (0, 1), degrees_of_freedom
+/// >= 1.
 double student_t_quantile(double probability, int degrees_of_freedom);
 
 /// Mean of some repeats and half the width of its 95 % confidence interval by Student's t.
