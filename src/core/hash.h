@@ -4,7 +4,11 @@
 
 namespace gradslc {
 
-/// Finaliser of SplitMix64 (Steele, Lea and Flood 2014; constants of Stafford's variant 13): a bijection of 64 bits that mixes well.
+/// 2^64 divided by the golden ratio, odd: SplitMix64's step, which keeps multiples of it far apart.
+constexpr std::uint64_t k_golden_gamma = 0x9e3779b97f4a7c15u;
+
+/// Finaliser of SplitMix64 (Steele, Lea and Flood 2014; constants of Stafford's variant 13): a bijection of 64 bits
+/// that mixes well.
 constexpr std::uint64_t mix64(std::uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
@@ -13,7 +17,7 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 
 /// A hash of several integers in order; hash_combine(a, b) != hash_combine(b, a).
 constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
-  return mix64(mix64(a + 0x9e3779b97f4a7c15u) ^ (b + 0x632be59bd9b4e019u));
+  return mix64(mix64(a + k_golden_gamma) ^ (b + 0x632be59bd9b4e019u));
 }
 template <class... Rest>
 constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b, Rest... rest) {

@@ -23,6 +23,10 @@ struct Resolution {
   constexpr std::size_t index(Pixel p) const {
     return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(p.x);
   }
+  constexpr Pixel pixel(std::size_t i) const {
+    const auto columns = static_cast<std::size_t>(width);
+    return {static_cast<int>(i % columns), static_cast<int>(i / columns)};
+  }
 };
 
 /// A row-major image, origin top left.

@@ -3,28 +3,30 @@
 #include <cstdint>
 #include <span>
 
+#include "core/hash.h"
 #include "core/vec.h"
 
 namespace gradslc {
 
-/// What a random number is used for. A number is named by its use and an index (usually the vertex of the path), so that
-/// adding one use does not shift the others, and replaying a path needs no recording: ask again (DESIGN 9).
+/// What a random number is used for. A number is named by its use and an index (usually the vertex of the path), so
+/// that adding one use does not shift the others, and replaying a path needs no recording: ask again (DESIGN 9). A new
+/// use goes to the end: a use's place is part of the random numbers' names.
 enum class Use : std::uint16_t {
-  pixel,             ///< position within the pixel
-  lens,              ///< position on the lens
-  lobe,              ///< connectable or other lobe, and the component within
-  direction,         ///< direction of a BSDF sample
-  emitter,           ///< which emitter next-event estimation connects to
-  emitter_point,     ///< position on that emitter
-  roulette,          ///< Russian roulette
-  compensation_lobe, ///< the ray that compensates bounding: component
-  compensation,      ///< the ray that compensates bounding: direction
-  emission_emitter,  ///< light tracing: which emitter
-  emission_point,    ///< light tracing: position on it
-  emission_direction,///< light tracing: direction from it
-  descent,           ///< descent from a node of the cut; index = node of the cut and level
-  vpl_choice,        ///< uniform or power sampling of VPLs
-  group_offset,      ///< offset of the blocks or tiles of a pass
+  pixel,               ///< position within the pixel
+  lens,                ///< position on the lens
+  lobe,                ///< connectable or other lobe, and the component within
+  direction,           ///< direction of a BSDF sample
+  emitter,             ///< which emitter next-event estimation connects to
+  emitter_point,       ///< position on that emitter
+  roulette,            ///< Russian roulette
+  compensation_lobe,   ///< the ray that compensates bounding: component
+  compensation,        ///< the ray that compensates bounding: direction
+  emission_emitter,    ///< light tracing: which emitter
+  emission_point,      ///< light tracing: position on it
+  emission_direction,  ///< light tracing: direction from it
+  descent,             ///< descent from a node of the cut; index = node of the cut and level
+  vpl_choice,          ///< uniform or power sampling of VPLs
+  group_offset,        ///< offset of the blocks or tiles of a pass
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };
@@ -39,23 +41,24 @@ std::span<const SamplerEntry> sampler_registry();
 
 /// The random numbers of one sample: a pure function of (kind, seed, stream, sample, use, index), without state.
 /// `stream` is what is sampled (a pixel, a group of pixels, the light paths); `sample` counts its samples, and a
-/// low-discrepancy sampler stratifies over it. Numbers of different streams, seeds and uses are independent.
+/// low-discrepancy sampler stratifies over it. Numbers of different streams, seeds, uses and indices are independent.
+/// The same name gives the same bits in get1 and get1_double, and unrelated ones in get2: ask for one of them only.
 class SampleStream {
  public:
   SampleStream(SamplerKind kind, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
-      : kind_(kind), seed_(seed), stream_(stream), sample_(sample) {}
+      : key_(hash_combine(seed, stream)), sample_(sample), kind_(kind) {}
 
-  /// In [0,1).
+  /// In [0,1), a multiple of 2^-24.
   float get1(Use use, std::uint32_t index = 0) const;
-  /// Both in [0,1), stratified in two dimensions.
+  /// Both in [0,1), multiples of 2^-24, stratified in two dimensions.
   Vec2 get2(Use use, std::uint32_t index = 0) const;
   /// In [0,1), with 32 random bits: for choices among many, where a float is too coarse.
   double get1_double(Use use, std::uint32_t index = 0) const;
 
  private:
-  SamplerKind kind_;
-  std::uint64_t seed_, stream_;
+  std::uint64_t key_;
   std::uint32_t sample_;
+  SamplerKind kind_;
 };
 
 }  // namespace gradslc

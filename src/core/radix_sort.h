@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace gradslc {
+
+struct SortRecord {
+  std::uint64_t key, value;
+  bool operator==(const SortRecord&) const = default;
+};
+
+/// Sorts by key, stable: least significant digit first, eight passes of eight bits, chunks of fixed size in parallel.
+/// Passes whose digit is the same everywhere are skipped.
+void radix_sort(std::vector<SortRecord>& records);
+
+}  // namespace gradslc

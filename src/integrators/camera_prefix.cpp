@@ -1,0 +1,64 @@
+#include "integrators/camera_prefix.h"
+
+#include "core/constants.h"
+
+namespace gradslc {
+namespace {
+
+/// Which kind of lobe is taken, in proportion to energy. `remapped`: the random number, to be used once more.
+struct LobeChoice {
+  bool connectable = false;
+  float probability = 0;  ///< 0: nothing is reflected
+  float remapped = 0;
+};
+
+LobeChoice choose_lobe(const PathVertex& vertex, const LobeSelection& lobes, float u) {
+  const float connectable = vertex.bsdf.energy(vertex.wo, lobes.only_connectable());
+  const float other = vertex.bsdf.energy(vertex.wo, lobes.only_other());
+  if (connectable + other == 0) return {};
+  const float p = connectable / (connectable + other);
+  if (u < p) return {true, p, std::min(u / p, k_one_minus_epsilon)};
+  return {false, 1 - p, std::min((u - p) / (1 - p), k_one_minus_epsilon)};
+}
+
+}  // namespace
+
+CameraPrefix trace_camera_prefix(PathContext& context, Vec2 film_position) {
+  CameraPrefix prefix;
+  Rgb throughput(1);
+  Ray ray = context.scene.camera().generate_ray(film_position);
+  RayOrigin origin{.position = ray.origin};
+  for (int edges = 1; edges <= context.settings.max_depth; ++edges) {
+    ++context.rays;
+    const auto hit = context.scene.intersect(ray);
+    if (!hit) break;
+    if (context.settings.components.includes(edges))
+      prefix.radiance[Part::prefix] += throughput * emitted_radiance(context, *hit, -ray.direction, origin);
+    if (edges == context.settings.max_depth) break;
+
+    const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    const auto index = static_cast<std::uint32_t>(edges);
+    const LobeChoice choice = choose_lobe(vertex, context.lobes, context.random.get1(Use::lobe, index));
+    if (choice.probability == 0) break;
+    throughput *= 1 / choice.probability;
+    if (choice.connectable) {
+      prefix.gather = vertex;
+      prefix.throughput = throughput;
+      break;
+    }
+
+    const LobeSelection others = context.lobes.only_other();
+    if (context.settings.components.includes(edges + 1))
+      add_next_event(context, vertex, others, LabelledThroughput::camera_path(throughput), nullptr, prefix.radiance);
+    const auto sample =
+        vertex.bsdf.sample(vertex.wo, choice.remapped, context.random.get2(Use::direction, index), others);
+    if (!sample) break;
+    throughput *= sample->weight;
+    if (is_black(throughput)) break;
+    ray = spawn_ray(vertex.point, vertex.point.shading.to_world(sample->wi));
+    origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
+  }
+  return prefix;
+}
+
+}  // namespace gradslc

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "integrators/gathering.h"
+#include "lighttree/cut.h"
+#include "lighttree/descent.h"
+
+namespace gradslc {
+
+struct ChosenVpl {
+  std::uint32_t vpl;          ///< index into LightTree::vpls
+  float inverse_probability;  ///< of its being chosen
+};
+
+/// What selection has cost.
+struct SelectionCost {
+  std::uint64_t node_evaluations = 0, selections = 0;
+  SelectionCost& operator+=(const SelectionCost& o) {
+    node_evaluations += o.node_evaluations, selections += o.selections;
+    return *this;
+  }
+};
+
+/// Stochastic lightcuts' selection by descent (Yuksel 2019): one VPL below every node of a cut. With several receivers
+/// the cut and the law are shared: weights are summed over the receivers, so that no VPL that lights one of them has
+/// probability 0 (DESIGN 6). Keeps its memory between uses; one per thread.
+class CutSelector {
+ public:
+  CutSelector(const LightTree& tree, int cut_size, float bound) : tree_(tree), cut_size_(cut_size), bound_(bound) {}
+
+  /// The choice depends on `random`'s numbers for Use::descent alone. Valid until the next call.
+  std::span<const ChosenVpl> select(std::span<const Receiver> receivers, const SampleStream& random);
+  const SelectionCost& cost() const { return cost_; }
+
+ private:
+  const LightTree& tree_;
+  int cut_size_;
+  float bound_;
+  LightCut cut_;
+  std::vector<ChosenVpl> chosen_;
+  SelectionCost cost_;
+};
+
+/// Light from the chosen VPLs at x, a shadow ray for each that contributes.
+Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree, std::span<const ChosenVpl> chosen,
+                  float bound);
+
+}  // namespace gradslc

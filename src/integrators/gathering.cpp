@@ -1,0 +1,81 @@
+#include "integrators/gathering.h"
+
+#include <algorithm>
+
+namespace gradslc {
+namespace {
+
+/// The ray is cut where nothing beyond can count: no emitter is looked for, no f_s exists, and K cannot exceed b.
+/// The factor covers the rounding of the ray's start.
+float ray_length(Vec3 wi, Rgb f_x, const GatherSettings& gather, bool looks_for_emitters) {
+  constexpr float k_margin = 1.001f;
+  if (looks_for_emitters || gather.scene_has_other_lobes) return k_infinity;
+  return k_margin * compensation_reach(k_pi * max_channel(f_x), wi.z, gather.max_scene_albedo, gather.bound);
+}
+
+void add_compensation(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
+                      PartValues& radiance) {
+  const PathVertex& x = *prefix.gather;
+  const LobeSelection connectable = context.lobes.only_connectable();
+  const int edges = x.edges + 1;
+  const int max_edges = std::min(context.settings.max_depth, edges + gather.max_bounces);
+  const bool looks_for_emitters = context.settings.components.includes(edges);
+  const bool goes_on =
+      context.settings.components.indirect && edges < max_edges && (gather.compensate || gather.scene_has_other_lobes);
+  if (!looks_for_emitters && !goes_on) return;
+
+  const auto index = static_cast<std::uint32_t>(x.edges);
+  const float u_lobe = context.random.get1(Use::compensation_lobe, index);
+  const auto sample = x.bsdf.sample(x.wo, u_lobe, context.random.get2(Use::compensation, index), connectable);
+  if (!sample) return;
+  const Rgb f_x = x.bsdf.eval(x.wo, sample->wi, connectable);
+  const Vec3 wi = x.point.shading.to_world(sample->wi);
+  const Ray ray = spawn_ray(x.point, wi, ray_length(sample->wi, f_x, gather, looks_for_emitters));
+  ++context.rays;
+  const auto hit = context.scene.intersect(ray);
+  if (!hit) return;
+
+  auto throughput =
+      LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
+  RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
+  if (looks_for_emitters) throughput.collect(emitted_radiance(context, *hit, -wi, origin), radiance);
+  if (!goes_on) return;
+
+  const PathVertex y = make_path_vertex(context.scene, *hit, -wi, edges);
+  const Compensation compensation{
+      connection_strength(k_pi * max_channel(f_x), 1, sample->wi.z, dot(wi, y.point.geometric_normal),
+                          distance_squared(x.point.position, y.point.position)),
+      gather.compensate ? gather.bound : k_infinity};
+  const bool compensates = compensation.factor * y.bsdf.max_connectable_albedo(context.lobes) > compensation.bound;
+  if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
+  Ray next;
+  if (scatter(context, y, &compensation, throughput, next, origin, radiance))
+    trace_path(context, next, origin, throughput, edges, max_edges, 0, radiance);
+}
+
+}  // namespace
+
+GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth) {
+  GatherSettings gather;
+  const LobeSelection lobes = parameters.lobes();
+  gather.compensate = parameters.bounding == Bounding::compensate;
+  gather.bound = parameters.bounding == Bounding::none ? k_infinity : bound;
+  gather.max_bounces = parameters.resolved_max_bounces(max_depth);
+  gather.max_scene_albedo = 0;
+  for (const Material& material : scene.materials()) {
+    gather.scene_has_other_lobes |= material.has_other_lobes(lobes);
+    gather.max_scene_albedo = std::max(gather.max_scene_albedo, material.max_connectable_albedo(lobes));
+  }
+  return gather;
+}
+
+void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
+                         PartValues& radiance) {
+  const PathVertex& x = *prefix.gather;
+  if (context.settings.components.includes(x.edges + 1))
+    add_next_event(context, x, context.lobes.only_connectable(), LabelledThroughput::camera_path(prefix.throughput),
+                   nullptr, radiance);
+  add_compensation(context, prefix, gather, radiance);
+}
+
+}  // namespace gradslc

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "integrators/camera_prefix.h"
+#include "vpl/connection.h"
+#include "vpl/vpl_parameters.h"
+
+namespace gradslc {
+
+/// What gathering needs to know beside the path (DESIGN 4).
+struct GatherSettings {
+  float bound = k_infinity;  ///< b of VPL connections; infinite: plain gathering
+  bool compensate = false;   ///< what bounding takes is brought back by the ray
+  int max_bounces = 1;       ///< most vertices on the light's side
+  bool scene_has_other_lobes = false;
+  float max_scene_albedo = 1;  ///< upper bound of pi f_c anywhere
+};
+GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth);
+
+inline GatherPoint make_gather_point(const PathVertex& x, const LobeSelection& lobes) {
+  return {x.point, x.bsdf, x.wo, lobes};
+}
+
+/// Whether light over `bounces` vertices from x's next one counts: D = edges + 1 + k.
+inline bool vpl_counts(const PathContext& context, const PathVertex& x, std::uint32_t k) {
+  const int edges = x.edges + 1 + static_cast<int>(k);
+  return edges <= context.settings.max_depth && context.settings.components.includes(edges);
+}
+
+/// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the one ray
+/// through f_c(x) that brings emitters (weighted against next-event estimation), f_s(y) with weight 1 and f_c(y) with
+/// what bounding has taken.
+void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
+                         PartValues& radiance);
+
+}  // namespace gradslc

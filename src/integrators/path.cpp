@@ -1,0 +1,46 @@
+#include "integrators/path.h"
+
+namespace gradslc {
+
+std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex) {
+  const Emitters& emitters = context.scene.emitters();
+  if (emitters.empty()) return std::nullopt;
+  const auto index = static_cast<std::uint32_t>(vertex.edges);
+  const double u_emitter = context.random.get1_double(Use::emitter, index);
+  const auto light =
+      emitters.sample_direct(vertex.point.position, u_emitter, context.random.get2(Use::emitter_point, index));
+  if (!light) return std::nullopt;
+  return NextEvent{*light, vertex.to_local(light->wi)};
+}
+
+bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light) {
+  ++context.rays;
+  return !context.scene.occluded(segment(offset_position(from, light.wi), light.position));
+}
+
+LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
+                         const Compensation* compensation) {
+  const float cos_over_pdf = std::abs(wi.z) / pdf_solid_angle;
+  LobeWeights weights;
+  if (lobes.connectable) {
+    const Rgb f = vertex.bsdf.eval(vertex.wo, wi, lobes.only_connectable());
+    weights.connectable = f * (cos_over_pdf * (compensation ? compensation->weight(f) : 1));
+  }
+  if (lobes.other) weights.other = vertex.bsdf.eval(vertex.wo, wi, lobes.only_other()) * cos_over_pdf;
+  return weights;
+}
+
+LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
+                         const Compensation* compensation) {
+  if (sample.delta) return {Rgb(), sample.weight};
+  return lobe_weights(vertex, sample.wi, sample.pdf_solid_angle, lobes, compensation);
+}
+
+Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin) {
+  const Emitters& emitters = context.scene.emitters();
+  const Rgb radiance = emitters.radiance(hit, wo);
+  if (is_black(radiance) || origin.emission_only_by_hit) return radiance;
+  return radiance * power_heuristic(origin.pdf_solid_angle, emitters.pdf_direct(origin.position, hit));
+}
+
+}  // namespace gradslc

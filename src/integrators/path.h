@@ -1,0 +1,145 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "integrators/integrator.h"
+#include "integrators/throughput.h"
+#include "scene/scene.h"
+#include "vpl/bounding.h"
+
+namespace gradslc {
+
+/// What every path of one sample shares.
+struct PathContext {
+  const Scene& scene;
+  const RenderSettings& settings;
+  LobeSelection lobes;
+  SampleStream random;
+  std::uint64_t rays = 0;  ///< counted here
+};
+
+/// Power heuristic with exponent 2 (Veach 1997, section 9.2.4): weight of the technique with density `pdf`, both in the
+/// same measure. Ratios first, so that large densities do not overflow.
+inline float power_heuristic(float pdf, float other_pdf) {
+  if (pdf <= 0) return 0;
+  const float ratio = other_pdf / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// How a ray was made: what weighs the emitter that it may hit against next-event estimation.
+struct RayOrigin {
+  Point3 position;                   ///< of the last vertex that scatters
+  float pdf_solid_angle = 0;         ///< with which the ray's direction was sampled
+  bool emission_only_by_hit = true;  ///< camera rays and delta lobes: next-event estimation cannot find the emitter
+};
+
+/// At the first vertex y of a path, f_c(y) counts only with the weight that bounded gathering leaves over (DESIGN 4):
+/// strength K = `factor` * pi f_c(y), for each direction in which y goes on.
+struct Compensation {
+  float factor;  ///< pi f_c(x) |cos_x cos_y| / d^2
+  float bound;   ///< b
+
+  float weight(Rgb f_y) const { return compensation_weight(factor * k_pi * max_channel(f_y), bound); }
+};
+
+/// A point of a path with what scattering there needs.
+struct PathVertex {
+  SurfacePoint point;
+  Bsdf bsdf;
+  Vec3 wo;        ///< local
+  int edges = 0;  ///< of the path from the camera up to here
+
+  Vec3 to_local(Vec3 v) const { return point.shading.to_local(v); }
+};
+inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, Vec3 wo, int edges) {
+  return {hit, scene.material(hit).resolve(hit.uv), hit.shading.to_local(wo), edges};
+}
+
+/// An emitter seen from a vertex: the light that arrives, over the density of the choice.
+struct NextEvent {
+  DirectSample light;
+  Vec3 wi;  ///< local
+};
+/// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
+/// not tested.
+std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex);
+bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light);
+
+/// Splits the value of the selected lobes towards wi; each times |cos| over pdf.
+LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
+                         const Compensation* compensation);
+/// The same for a sampled direction.
+LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
+                         const Compensation* compensation);
+
+/// Next-event estimation at a vertex with multiple importance sampling against a ray sampled from the same lobes: adds
+/// to `radiance`. Paths of vertex.edges + 1 edges; the caller has checked that these count.
+template <class Throughput>
+void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes,
+                    const Throughput& throughput, const Compensation* compensation, PartValues& radiance) {
+  const auto event = choose_emitter(context, vertex);
+  if (!event) return;
+  const float pdf = event->light.pdf_solid_angle;
+  const Throughput scattered = throughput.scattered(lobe_weights(vertex, event->wi, pdf, lobes, compensation));
+  if (scattered.is_black() || !is_visible(context, vertex.point, event->light)) return;
+  const float mis = power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes));
+  scattered.scaled(mis).collect(event->light.radiance, radiance);
+}
+
+/// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
+Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin);
+
+/// Next-event estimation at a vertex, then a sampled direction: updates throughput, ray and origin. False: the path
+/// ends.
+template <class Throughput>
+bool scatter(PathContext& context, const PathVertex& vertex, const Compensation* compensation, Throughput& throughput,
+             Ray& ray, RayOrigin& origin, PartValues& radiance) {
+  const LobeSelection& lobes = context.lobes;
+  if (context.settings.components.includes(vertex.edges + 1))
+    add_next_event(context, vertex, lobes, throughput, compensation, radiance);
+
+  const auto index = static_cast<std::uint32_t>(vertex.edges);
+  const float u_lobe = context.random.get1(Use::lobe, index);
+  const auto sample = vertex.bsdf.sample(vertex.wo, u_lobe, context.random.get2(Use::direction, index), lobes);
+  if (!sample) return false;
+  throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
+  if (throughput.is_black()) return false;
+  ray = spawn_ray(vertex.point, vertex.point.shading.to_world(sample->wi));
+  origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
+  return true;
+}
+
+/// Russian roulette by throughput; scales it up on survival.
+template <class Throughput>
+bool survives(const PathContext& context, int edges, Throughput& throughput) {
+  const float survival = std::min(1.0f, throughput.largest());
+  if (context.random.get1(Use::roulette, static_cast<std::uint32_t>(edges)) >= survival) return false;
+  throughput = throughput.scaled(1 / survival);
+  return true;
+}
+
+/// Follows a path from `ray` to its end, adding all light that arrives with at most `max_edges` edges in components
+/// that count. `edges`: of the path so far, not counting `ray`. `first_hit`: what lies on the ray, if the caller has
+/// traced it. Path tracing with next-event estimation (Kajiya 1986) and multiple importance sampling, without Russian
+/// roulette before `roulette_depth` edges (0: never).
+template <class Throughput>
+void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput throughput, int edges, int max_edges,
+                int roulette_depth, PartValues& radiance) {
+  while (edges < max_edges) {
+    ++context.rays;
+    const auto hit = context.scene.intersect(ray);
+    if (!hit) return;
+    ++edges;
+    if (context.settings.components.includes(edges))
+      throughput.collect(emitted_radiance(context, *hit, -ray.direction, origin), radiance);
+    if (edges == max_edges) return;
+
+    const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (!scatter(context, vertex, nullptr, throughput, ray, origin, radiance)) return;
+    if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;
+  }
+}
+
+}  // namespace gradslc

@@ -1,0 +1,119 @@
+#include "core/distribution.h"
+#include "core/parallel.h"
+#include "integrators/gathering.h"
+#include "integrators/record.h"
+#include "integrators/registry.h"
+#include "integrators/vpl_source.h"
+
+namespace gradslc {
+namespace {
+
+enum class Selection : std::uint8_t { all, uniform, power };
+
+/// Gathers from every VPL (instant radiosity, Keller 1997), or from a random sample of them: the oracle of the light
+/// tree, and the baseline of its selection.
+class VplSampler final : public Integrator {
+ public:
+  void describe(ParameterVisitor& v) override {
+    v.choice("selection", selection_, {"all", "uniform", "power"}, "which VPLs a pixel gathers from");
+    v.integer("samples", samples_, {1, 1e6}, "VPLs", "VPLs drawn per pixel, with replacement; not for \"all\"");
+    source_.describe(v);
+  }
+
+  void prepare(const Scene& scene, const RenderSettings& settings) override {
+    scene_ = &scene, settings_ = settings;
+    source_.prepare(scene, settings);
+    gather_ = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth);
+  }
+
+  void render_pass(std::uint32_t pass, Film& film) override {
+    const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+    const std::vector<Vpl>& vpls = source_.vpls_of(slot).vpls;
+    if (selection_ == Selection::power) {
+      std::vector<double> weights;
+      for (const Vpl& vpl : vpls) weights.push_back(static_cast<double>(luminance(vpl.reflected_flux)));
+      by_power_ = DiscreteDistribution(weights);
+    }
+    const Resolution resolution = film.resolution();
+    FilmHalf& half = film.half(slot.half);
+    rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 64, [&](std::size_t begin, std::size_t end) {
+      std::uint64_t rays = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Pixel pixel = resolution.pixel(i);
+        record(half, pixel, sample(slot, vpls, pixel, i, rays));
+      }
+      return rays;
+    });
+    if (slot.closes_set) film.close_set(slot.half);
+  }
+
+  IntegratorTraits traits() const override { return source_.traits(); }
+  IntegratorStatistics statistics() const override {
+    IntegratorStatistics statistics{.rays = rays_ + source_.rays(), .counters = {}};
+    source_.append_counters(statistics.counters);
+    return statistics;
+  }
+
+ private:
+  PartValues sample(const PassSlot& slot, const std::vector<Vpl>& vpls, Pixel pixel, std::size_t index,
+                    std::uint64_t& rays) const {
+    PathContext context{*scene_, settings_, source_.parameters().lobes(),
+                        SampleStream(settings_.sampler, derive_seed(settings_.seed, SeedPurpose::camera, slot.half),
+                                     index, slot.sample)};
+    const Vec2 jitter = context.random.get2(Use::pixel);
+    const CameraPrefix prefix =
+        trace_camera_prefix(context, Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + jitter);
+    PartValues radiance = prefix.radiance;
+    if (prefix.gather) {
+      gather_without_vpls(context, prefix, gather_, radiance);
+      radiance[Part::vpl] += prefix.throughput * gather_vpls(context, *prefix.gather, vpls);
+    }
+    rays += context.rays;
+    return radiance;
+  }
+
+  Rgb gather_vpls(PathContext& context, const PathVertex& x, const std::vector<Vpl>& vpls) const {
+    Rgb sum;
+    if (vpls.empty()) return sum;
+    const GatherPoint point = make_gather_point(x, context.lobes);
+    if (selection_ == Selection::all) {
+      for (const Vpl& vpl : vpls) sum += connect(context, x, point, vpl);
+      return sum;
+    }
+    if (selection_ == Selection::power && by_power_.total() == 0) return sum;
+    for (int s = 0; s < samples_; ++s) {
+      const double u = context.random.get1_double(Use::vpl_choice, static_cast<std::uint32_t>(s));
+      std::size_t chosen = static_cast<std::size_t>(u * static_cast<double>(vpls.size()));
+      double probability = 1 / static_cast<double>(vpls.size());
+      if (selection_ == Selection::power) {
+        const auto drawn = by_power_.sample(u);
+        chosen = drawn.index, probability = drawn.probability;
+      }
+      sum += connect(context, x, point, vpls[chosen]) * static_cast<float>(1 / (probability * samples_));
+    }
+    return sum;
+  }
+
+  Rgb connect(PathContext& context, const PathVertex& x, const GatherPoint& point, const Vpl& vpl) const {
+    if (!vpl_counts(context, x, vpl.vertex)) return Rgb();
+    const Rgb contribution = unshadowed_contribution(point, vpl, gather_.bound);
+    if (is_black(contribution)) return Rgb();
+    ++context.rays;
+    return context.scene.occluded(connection_segment(point, vpl)) ? Rgb() : contribution;
+  }
+
+  Selection selection_ = Selection::all;
+  int samples_ = 10;
+  VplSource source_{VplSource::Structure::list};
+  const Scene* scene_ = nullptr;
+  RenderSettings settings_;
+  GatherSettings gather_;
+  DiscreteDistribution by_power_;
+  std::uint64_t rays_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_vpl_sampler() { return std::make_unique<VplSampler>(); }
+
+}  // namespace gradslc

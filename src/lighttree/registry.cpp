@@ -1,0 +1,21 @@
+#include "lighttree/builders/pairs.h"
+#include "lighttree/light_tree.h"
+
+namespace gradslc {
+namespace {
+
+constexpr BuilderEntry k_builders[] = {
+    {"pairs", "Morton order, neighbours paired level by level", build_pairs},
+};
+
+}  // namespace
+
+std::span<const BuilderEntry> builder_registry() { return k_builders; }
+
+std::vector<std::string> builder_names() {
+  std::vector<std::string> names;
+  for (const BuilderEntry& entry : k_builders) names.emplace_back(entry.name);
+  return names;
+}
+
+}  // namespace gradslc
