@@ -79,8 +79,9 @@ double MethodRun::predicted_pass_seconds() const {
 
 void MethodRun::skip_missed_targets() {
   if (plan_.budget.kind == Budget::Kind::spp) return;
+  const double tolerance = passes_ > 1 ? predicted_pass_seconds() : 0;
   const auto missed = [&](double target) {
-    return passes_ == last_point_passes_ || spent() + reconstruct_seconds_ > target + predicted_pass_seconds();
+    return passes_ == last_point_passes_ || spent() + reconstruct_seconds_ > target + tolerance;
   };
   while (!is_final_target() && point_is_due() && missed(plan_.targets[next_target_])) ++next_target_;
 }
