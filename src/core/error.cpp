@@ -3,12 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 namespace gradslc {
 namespace {
+
+/// Bytes of the word or quoted string that begins at `text`; at least 1.
+std::size_t token_length(std::string_view text) {
+  if (text.empty()) return 1;
+  if (text.front() == '"') {
+    const std::size_t end = text.find('"', 1);
+    return end == std::string_view::npos ? 1 : end + 1;
+  }
+  const auto is_word = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-' || c == '+';
+  };
+  const auto end = std::find_if_not(text.begin(), text.end(), is_word);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(end - text.begin()));
+}
+
+constexpr bool continues_utf8(char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; }
+
+/// A caret under byte column `column` (1-based) of `line`, and tildes under the rest of the token there.
+std::string underline(std::string_view line, std::size_t column) {
+  std::string text;
+  const std::size_t begin = std::min(column - 1, line.size());
+  for (const char c : line.substr(0, begin))
+    if (!continues_utf8(c)) text += c == '\t' ? '\t' : ' ';
+  const std::string_view rest = line.substr(begin);
+  const std::string_view token = rest.substr(0, token_length(rest));
+  const auto characters = std::count_if(token.begin(), token.end(), [](char c) { return !continues_utf8(c); });
+  return text + "^" + std::string(static_cast<std::size_t>(std::max<std::ptrdiff_t>(characters - 1, 0)), '~');
+}
 
 std::string format_error(const SourcePosition& where, const std::string& message) {
   std::string text;
@@ -22,9 +51,9 @@ std::string format_error(const SourcePosition& where, const std::string& message
   if (!where.pointer.empty()) text += where.pointer + ": ";
   text += message;
   if (!where.excerpt.empty() && where.line > 0) {
-    const std::string margin = fmt::format("{:5} | ", where.line);
-    text += "\n" + margin + where.excerpt;
-    if (where.column > 0) text += fmt::format("\n{:>{}}^", "", margin.size() + static_cast<std::size_t>(where.column) - 1);
+    text += fmt::format("\n{:5} | {}", where.line, where.excerpt);
+    if (where.column > 0)
+      text += fmt::format("\n{:5} | {}", "", underline(where.excerpt, static_cast<std::size_t>(where.column)));
   }
   return text;
 }

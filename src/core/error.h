@@ -7,15 +7,17 @@
 
 namespace gradslc {
 
-/// Where bad input stands: a file, and within it a line and column (1-based, 0 = unknown) and a JSON pointer or element.
+/// Where bad input stands: a file, and within it a line and column (1-based, 0 = unknown) and a JSON pointer or
+/// element.
 struct SourcePosition {
   std::string file;
   int line = 0, column = 0;
   std::string pointer;  ///< JSON pointer ("/methods/1/cut_size") or XML element ("shape[3]/bsdf"); may be empty
-  std::string excerpt;  ///< text of the line, shown under the message with a caret at `column`; may be empty
+  std::string excerpt;  ///< text of the line, shown under the message, its token at `column` underlined; may be empty
 };
 
-/// The one exception type of the project. Caught in the CLI, printed as one line (plus the excerpt), and turned into the exit code.
+/// The one exception type of the project. Caught in the CLI, printed as one line (plus the excerpt), and turned into
+/// the exit code.
 class Error : public std::exception {
  public:
   enum class Kind {

@@ -16,7 +16,8 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
 template <class T, class ChunkSum>
 T parallel_sum(std::size_t count, std::size_t grain, const ChunkSum& chunk_sum) {
   std::vector<T> partial((count + grain - 1) / grain);
-  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) { partial[begin / grain] = chunk_sum(begin, end); });
+  parallel_for(count, grain,
+               [&](std::size_t begin, std::size_t end) { partial[begin / grain] = chunk_sum(begin, end); });
   T total{};
   for (const T& part : partial) total += part;
   return total;

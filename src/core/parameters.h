@@ -53,7 +53,7 @@ class ParameterVisitor {
   }
   /// An enumeration whose values are 0, 1, ... in the order of `names`.
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void choice(std::string_view name, Enum& value, const std::vector<std::string>& names, std::string_view meaning) {
     auto index = static_cast<std::size_t>(value);
     choice(name, index, names, meaning);

@@ -32,9 +32,7 @@ inline bool is_finite(Rgb a) { return std::isfinite(a.r) && std::isfinite(a.g) &
 constexpr float luminance(Rgb a) { return 0.2126f * a.r + 0.7152f * a.g + 0.0722f * a.b; }
 
 /// Linear value of an sRGB-encoded one in [0,1] (IEC 61966-2-1).
-inline float srgb_to_linear(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
+inline float srgb_to_linear(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
 /// sRGB encoding of a linear value, clamped to [0,1].
 inline float linear_to_srgb(float v) {
   v = std::clamp(v, 0.0f, 1.0f);

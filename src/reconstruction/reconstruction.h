@@ -14,8 +14,8 @@ namespace gradslc {
 /// dx has the image's size; its last column and dy's last row are not used.
 struct ReconstructionBuffers {
   RgbImage primal, dx, dy;
-  Image<float> primal_count, dx_count, dy_count;           ///< samples; 0: no estimate there
-  RgbImage primal_variance, dx_variance, dy_variance;      ///< of the means; infinite where unknown
+  Image<float> primal_count, dx_count, dy_count;       ///< samples; 0: no estimate there
+  RgbImage primal_variance, dx_variance, dy_variance;  ///< of the means; infinite where unknown
 };
 
 struct ReconstructionInput {

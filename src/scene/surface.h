@@ -29,7 +29,8 @@ Point3 offset_position(Point3 position, Normal3 geometric_normal, float error, V
 /// A ray that leaves `point` in the unit direction `direction`.
 Ray spawn_ray(const SurfacePoint& point, Vec3 direction, float max_distance = k_infinity);
 
-/// The open segment between two positions that are already offset; direction is not normalised, max_distance < 1.
+/// The open segment between two positions that are already offset: direction is `to - from`, not normalised, and
+/// max_distance is 1 - 1e-4, so that rounding of the hit distance does not make the end point's own surface occlude it.
 Ray segment(Point3 from, Point3 to);
 
 }  // namespace gradslc

@@ -17,5 +17,8 @@ struct LoadOptions {
 /// Loads a scene file in Mitsuba's XML format, dialect 0.5/0.6 or 3 by its version attribute.
 /// Throws Error (input) with file, line, element and what would be right.
 SceneDescription load_scene(const std::string& file, const LoadOptions& options = {});
+/// The same for text in memory; `file` is its name in messages, and files that it names are sought in the folder of
+/// that.
+SceneDescription load_scene_text(std::string text, const std::string& file, const LoadOptions& options = {});
 
 }  // namespace gradslc

@@ -1,0 +1,156 @@
+#include "reconstruction/weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "core/parallel.h"
+
+namespace gradslc {
+namespace {
+
+constexpr double k_floor = 1e-3;         ///< of a term's mean variance
+constexpr double k_lowest_floor = 1e-6;  ///< of the largest mean variance of the three terms
+constexpr std::size_t k_rows_per_chunk = 16;
+
+/// The pixels at which a term has values: dx has none in the last column, dy none in the last row.
+struct Term {
+  const RgbImage* variance;
+  const Image<float>* count;
+  Resolution used;
+};
+struct Terms {
+  Term primal, dx, dy;
+};
+Terms terms_of(const ReconstructionBuffers& buffers) {
+  const Resolution all = buffers.primal.resolution();
+  return {{&buffers.primal_variance, &buffers.primal_count, all},
+          {&buffers.dx_variance, &buffers.dx_count, {all.width - 1, all.height}},
+          {&buffers.dy_variance, &buffers.dy_count, {all.width, all.height - 1}}};
+}
+
+float largest_count(const Term& term) {
+  float largest = 0;
+  for (int y = 0; y < term.used.height; ++y)
+    for (int x = 0; x < term.used.width; ++x) largest = std::max(largest, (*term.count)(x, y));
+  return largest;
+}
+
+/// Sum of what is known, and of how many values.
+struct KnownSum {
+  double sum = 0;
+  double known = 0;
+  KnownSum& operator+=(const KnownSum& other) {
+    sum += other.sum;
+    known += other.known;
+    return *this;
+  }
+};
+
+template <class Body>
+void for_each_row(int height, const Body& body) {
+  parallel_for(static_cast<std::size_t>(height), k_rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+  });
+}
+
+KnownSum sample_variance(const Term& term, int x, int y) {
+  const Rgb variance = (*term.variance)(x, y);
+  const float count = (*term.count)(x, y);
+  if (!is_finite(variance) || count == 0) return {};
+  const double mean =
+      (static_cast<double>(variance.r) + static_cast<double>(variance.g) + static_cast<double>(variance.b)) / 3;
+  return {mean * static_cast<double>(count), 1};
+}
+
+Image<KnownSum> sample_variances(const Term& term) {
+  Image<KnownSum> values(term.used);
+  for_each_row(term.used.height, [&](int y) {
+    for (int x = 0; x < term.used.width; ++x) values(x, y) = sample_variance(term, x, y);
+  });
+  return values;
+}
+
+/// Sums over boxes of (2 radius + 1)^2 pixels, less at the border. Summed anew for each pixel: a running sum would keep
+/// the rounding error of the largest value that it has passed.
+Image<KnownSum> box_sums(const Image<KnownSum>& values, int radius) {
+  const int width = values.width(), height = values.height();
+  Image<KnownSum> rows(values.resolution()), boxes(values.resolution());
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      for (int i = std::max(0, x - radius); i <= std::min(width - 1, x + radius); ++i) rows(x, y) += values(i, y);
+  });
+  for_each_row(height, [&](int y) {
+    for (int j = std::max(0, y - radius); j <= std::min(height - 1, y + radius); ++j)
+      for (int x = 0; x < width; ++x) boxes(x, y) += rows(x, j);
+  });
+  return boxes;
+}
+
+/// Mean over the known pixels; nothing where there are none.
+std::optional<double> mean_of(const Image<KnownSum>& values) {
+  KnownSum total;
+  for (const KnownSum& value : values) total += value;
+  if (total.known == 0) return std::nullopt;
+  return total.sum / total.known;
+}
+
+/// factor count / (v + floor), times `unit` to stay within float's range; 0 without samples.
+Image<float> inverse_variances(const Term& weighted, const Image<KnownSum>& boxes, double mean, double floor,
+                               double factor) {
+  Image<float> weights(weighted.count->resolution());
+  for_each_row(weighted.used.height, [&](int y) {
+    for (int x = 0; x < weighted.used.width; ++x) {
+      const KnownSum& box = boxes(x, y);
+      const double variance = box.known > 0 ? box.sum / box.known : mean;
+      weights(x, y) = static_cast<float>(factor * static_cast<double>((*weighted.count)(x, y)) / (variance + floor));
+    }
+  });
+  return weights;
+}
+
+}  // namespace
+
+PoissonWeights count_weights(const ReconstructionBuffers& buffers, double alpha) {
+  const Terms terms = terms_of(buffers);
+  const double largest = std::max({largest_count(terms.primal), largest_count(terms.dx), largest_count(terms.dy)});
+  const auto scaled = [&](const Image<float>& counts, double factor) {
+    Image<float> weights(counts.resolution());
+    if (largest == 0) return weights;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] = static_cast<float>(factor * static_cast<double>(counts[i]) / largest);
+    return weights;
+  };
+  return {scaled(buffers.primal_count, alpha * alpha), scaled(buffers.dx_count, 1), scaled(buffers.dy_count, 1)};
+}
+
+PoissonWeights variance_weights(const ReconstructionBuffers& weighted, const ReconstructionBuffers& source,
+                                const VarianceWeightOptions& options) {
+  const Terms sources = terms_of(source), targets = terms_of(weighted);
+  struct Smoothed {
+    Image<KnownSum> boxes;
+    std::optional<double> mean;
+  };
+  const auto smoothed = [](const Term& term, int radius) {
+    const Image<KnownSum> values = sample_variances(term);
+    // A term without pixels (the image is one pixel wide or high) needs no variance.
+    return Smoothed{box_sums(values, radius), values.empty() ? 0.0 : mean_of(values)};
+  };
+  const Smoothed primal = smoothed(sources.primal, options.primal_radius);
+  const Smoothed dx = smoothed(sources.dx, options.gradient_radius);
+  const Smoothed dy = smoothed(sources.dy, options.gradient_radius);
+  if (!primal.mean || !dx.mean || !dy.mean) return count_weights(weighted, k_default_alpha);
+  const double largest_mean = std::max({*primal.mean, *dx.mean, *dy.mean});
+  const double counts = std::max({largest_count(targets.primal), largest_count(targets.dx), largest_count(targets.dy)});
+  if (largest_mean == 0 || counts == 0) return count_weights(weighted, k_default_alpha);
+
+  const double unit = largest_mean / counts;  // weights of about 1, within float's range for images of any scale
+  const auto weights = [&](const Term& target, const Smoothed& variance, double factor) {
+    const double floor = std::max(k_floor * *variance.mean, k_lowest_floor * largest_mean);
+    return inverse_variances(target, variance.boxes, *variance.mean, floor, factor * unit);
+  };
+  return {weights(targets.primal, primal, options.lambda), weights(targets.dx, dx, 1), weights(targets.dy, dy, 1)};
+}
+
+}  // namespace gradslc

@@ -1,0 +1,91 @@
+#include "scene/loaders/mitsuba_materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "scene/loaders/mitsuba_properties.h"
+
+namespace gradslc {
+namespace {
+
+constexpr std::size_t k_max_depth = 64;
+
+/// What bsdf plug-ins see of their element.
+class MaterialPropertyReader final : public PropertyReader {
+ public:
+  MaterialPropertyReader(MitsubaProperties& properties, MitsubaMaterials& materials)
+      : properties_(properties), materials_(materials) {}
+
+  bool boolean(std::string_view name, bool default_value) override { return properties_.boolean(name, default_value); }
+  float real(std::string_view name, float default_value) override { return properties_.real(name, default_value); }
+  std::string text(std::string_view name, std::string_view default_value) override {
+    return properties_.text(name, default_value);
+  }
+  Rgb colour(std::string_view name, Rgb default_value) override { return properties_.colour(name, default_value); }
+  Texture texture(std::string_view name, Rgb default_value) override { return Texture(colour(name, default_value)); }
+  std::vector<Material> nested_materials() override {
+    std::vector<Material> nested;
+    for (const XmlElement& bsdf : properties_.objects("bsdf")) nested.push_back(materials_.build(bsdf));
+    return nested;
+  }
+  [[noreturn]] void fail(std::string_view name, const std::string& message) const override {
+    properties_.fail(name, message);
+  }
+
+ private:
+  MitsubaProperties& properties_;
+  MitsubaMaterials& materials_;
+};
+
+}  // namespace
+
+const Material& MitsubaMaterials::build(const XmlElement& bsdf) {
+  if (const auto found = built_.find(bsdf.node); found != built_.end()) return found->second;
+  if (!in_progress_.insert(bsdf.node).second) document_.fail(bsdf, "this bsdf contains itself");
+  if (in_progress_.size() > k_max_depth)
+    document_.fail(bsdf, fmt::format("bsdfs are nested more than {} deep", k_max_depth));
+  Material material = make(bsdf);
+  in_progress_.erase(bsdf.node);
+  return built_.emplace(bsdf.node, std::move(material)).first->second;
+}
+
+Material MitsubaMaterials::make(const XmlElement& bsdf) {
+  MitsubaProperties properties(document_, bsdf);
+  const auto registry = bsdf_registry();
+  const auto entry = std::find_if(registry.begin(), registry.end(),
+                                  [&](const BsdfEntry& candidate) { return properties.plugin() == candidate.name; });
+  if (entry == registry.end()) {
+    std::vector<std::string> names;
+    for (const BsdfEntry& candidate : registry) names.emplace_back(candidate.name);
+    document_.unknown(bsdf,
+                      fmt::format("unknown bsdf \"{}\"{}", properties.plugin(), suggestion(properties.plugin(), names)),
+                      "type");
+    return {.name = properties.id(), .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false};
+  }
+  MaterialPropertyReader reader(properties, *this);
+  Material material = entry->make(reader);
+  properties.finish();
+  material.name = properties.id();
+  return material;
+}
+
+std::uint32_t MitsubaMaterials::index(const XmlElement& bsdf) {
+  if (const auto found = indices_.find(bsdf.node); found != indices_.end()) return found->second;
+  return indices_[bsdf.node] = add(build(bsdf));
+}
+
+std::uint32_t MitsubaMaterials::default_index() {
+  if (!default_index_)
+    default_index_ = add({.name = "default", .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false});
+  return *default_index_;
+}
+
+std::uint32_t MitsubaMaterials::add(Material material) {
+  materials_.push_back(std::move(material));
+  return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+}  // namespace gradslc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "materials/material.h"
+#include "scene/loaders/mitsuba_document.h"
+
+namespace gradslc {
+
+/// The materials of a scene: each <bsdf> is built once, however often it is referred to.
+class MitsubaMaterials {
+ public:
+  explicit MitsubaMaterials(MitsubaDocument& document) : document_(document) {}
+
+  /// Throws Error (input) where a bsdf is unknown or wrong, or contains itself.
+  const Material& build(const XmlElement& bsdf);
+  /// Index into the scene's materials.
+  std::uint32_t index(const XmlElement& bsdf);
+  /// Of what a shape without a bsdf is made: diffuse, reflectance 0.5.
+  std::uint32_t default_index();
+  /// All materials that have an index.
+  std::vector<Material> take() { return std::move(materials_); }
+
+ private:
+  Material make(const XmlElement& bsdf);
+  std::uint32_t add(Material material);
+
+  MitsubaDocument& document_;
+  std::map<pugi::xml_node, Material> built_;
+  std::set<pugi::xml_node> in_progress_;
+  std::map<pugi::xml_node, std::uint32_t> indices_;
+  std::vector<Material> materials_;
+  std::optional<std::uint32_t> default_index_;
+};
+
+}  // namespace gradslc

@@ -1,0 +1,91 @@
+// Every unbiased method agrees with path tracing, part by part and block by block: energy lost from one part would show
+// there as a large share (DESIGN 4). Scatter is measured over independent seeds.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "support/render/method.h"
+#include "support/render/scenes.h"
+
+namespace gradslc {
+namespace {
+
+constexpr double k_false_alarm = 0.001;  // of one TEST
+constexpr Resolution k_resolution{32, 32};
+constexpr BlockOptions k_options{.runs = 48, .passes = 8, .block = 8, .seed = 5};
+constexpr BlockOptions k_reference_options{.runs = 48, .passes = 64, .block = 8, .seed = 6};
+
+const std::vector<Method>& lightcut_methods() {
+  static const std::vector<Method> k_methods = {
+      {"vpl", "vpl", {{"vpl/light_paths", 100.0}, {"selection", "power"}, {"samples", 20.0}}},
+      {"slc", "slc", {{"vpl/light_paths", 300.0}}},
+      {"slc, small bound", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"cut_size", 4.0}}},
+      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
+      {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}, {"cut_size", 3.0}}},
+      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}}},
+      {"gradslc random replay 5x2", "gradslc",
+       {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}, {"block/width", 5.0}, {"block/height", 2.0}}},
+  };
+  return k_methods;
+}
+
+constexpr Quantity k_compared[] = {Quantity::image,    Quantity::direct, Quantity::vpl_and_compensation,
+                                   Quantity::specular, Quantity::prefix, Quantity::dx, Quantity::dy};
+
+/// Compares methods with spt on a scene.
+void expect_unbiased(const Scene& scene, const RenderSettings& settings, const std::vector<Method>& methods) {
+  const BlockMoments reference = block_moments({"spt", "spt", {}}, scene, settings, k_reference_options);
+  const std::size_t tests = methods.size() * std::size(k_compared) * reference.blocks.at(Quantity::image).size();
+  for (const Method& method : methods) {
+    BlockMoments moments = block_moments(method, scene, settings, k_options);
+    for (const Quantity quantity : k_compared) {
+      // spt writes vpl and compensation as one.
+      const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
+      EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
+          << fmt::format("{}, {}: block {} has {} where spt has {}, p = {:.2g}", method.label, to_string(quantity), c.block,
+                         c.mean_a, c.mean_b, c.p_value);
+    }
+  }
+}
+
+TEST(Unbiased, DiffuseBoxAllLight) { expect_unbiased(test_box(k_resolution), {.max_depth = 5}, lightcut_methods()); }
+
+TEST(Unbiased, DiffuseBoxIndirectLight) {
+  expect_unbiased(test_box(k_resolution), {.max_depth = 5, .components = {.emission = false, .direct = false}},
+                  lightcut_methods());
+}
+
+TEST(Unbiased, MirrorBoxAllLight) {
+  expect_unbiased(test_box(k_resolution, {.mirror = true}), {.max_depth = 6}, lightcut_methods());
+}
+
+TEST(Unbiased, MirrorBoxIndirectLight) {
+  expect_unbiased(test_box(k_resolution, {.mirror = true}),
+                  {.max_depth = 6, .components = {.emission = false, .direct = false}}, lightcut_methods());
+}
+
+TEST(Unbiased, IndependentSampler) {
+  expect_unbiased(test_box(k_resolution, {.mirror = true}), {.max_depth = 4, .sampler = SamplerKind::independent},
+                  {lightcut_methods()[1], lightcut_methods()[5]});
+}
+
+TEST(Unbiased, SpecularPartIsThere) {  // a control of the test above: caustics and mirror images carry energy
+  const Scene scene = test_box(k_resolution, {.mirror = true});
+  const auto moments = block_moments({"spt", "spt", {}}, scene, {.max_depth = 6}, k_options);
+  double specular = 0, image = 0;
+  for (const Moments& m : moments.blocks.at(Quantity::specular)) specular += m.mean();
+  for (const Moments& m : moments.blocks.at(Quantity::image)) image += m.mean();
+  EXPECT_GT(specular, 0.01 * image);
+}
+
+TEST(Unbiased, ClampingIsSeen) {  // a control: without compensation the comparison must fail
+  const Scene scene = test_box(k_resolution);
+  const RenderSettings settings{.max_depth = 5, .components = {.emission = false, .direct = false}};
+  const BlockMoments reference = block_moments({"spt", "spt", {}}, scene, settings, k_reference_options);
+  const Method clamped{"clamped", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"vpl/bounding", "clamp"}}};
+  const BlockMoments moments = block_moments(clamped, scene, settings, k_options);
+  EXPECT_LT(compare_blocks(moments.blocks.at(Quantity::image), reference.blocks.at(Quantity::image)).p_value, 1e-9);
+}
+
+}  // namespace
+}  // namespace gradslc

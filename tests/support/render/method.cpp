@@ -1,0 +1,155 @@
+#include "support/render/method.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "core/hash.h"
+#include "film/film.h"
+#include "scene/scene.h"
+
+namespace gradslc {
+namespace {
+
+class ParameterAssigner final : public ParameterVisitor {
+ public:
+  explicit ParameterAssigner(std::map<std::string, ParameterValue> values) : values_(std::move(values)) {}
+  ~ParameterAssigner() override {
+    for (const auto& [key, value] : values_) {
+      std::cerr << "unknown parameter in a test: " << key << std::endl;
+      std::abort();
+    }
+  }
+  using ParameterVisitor::choice;
+  using ParameterVisitor::integer;
+  using ParameterVisitor::real;
+
+  void boolean(std::string_view name, bool& value, std::string_view) override {
+    if (const auto* v = take<bool>(name)) value = *v;
+  }
+  void integer(std::string_view name, std::int64_t& value, Range, std::string_view, std::string_view) override {
+    if (const auto* v = take<double>(name)) value = static_cast<std::int64_t>(*v);
+  }
+  void real(std::string_view name, double& value, Range, std::string_view, std::string_view) override {
+    if (const auto* v = take<double>(name)) value = *v;
+  }
+  void choice(std::string_view name, std::size_t& index, const std::vector<std::string>& names, std::string_view) override {
+    const auto* v = take<std::string>(name);
+    if (!v) return;
+    const auto found = std::find(names.begin(), names.end(), *v);
+    if (found == names.end()) std::abort();
+    index = static_cast<std::size_t>(found - names.begin());
+  }
+  void group(std::string_view name, std::string_view, const std::function<void()>& body) override {
+    const std::string outer = prefix_;
+    prefix_ += std::string(name) + "/";
+    body();
+    prefix_ = outer;
+  }
+
+ private:
+  template <class T>
+  const T* take(std::string_view name) {
+    const auto found = values_.find(prefix_ + std::string(name));
+    if (found == values_.end()) return nullptr;
+    taken_ = found->second;
+    values_.erase(found);
+    return &std::get<T>(taken_);
+  }
+  std::map<std::string, ParameterValue> values_;
+  ParameterValue taken_;
+  std::string prefix_;
+};
+
+/// Block means of one image.
+std::vector<double> block_means(Resolution resolution, int block, const std::function<Rgb(Pixel)>& value,
+                                const std::function<bool(Pixel)>& counts) {
+  std::vector<double> means;
+  for (int y0 = 0; y0 < resolution.height; y0 += block)
+    for (int x0 = 0; x0 < resolution.width; x0 += block) {
+      double sum = 0;
+      int n = 0;
+      for (int y = y0; y < std::min(y0 + block, resolution.height); ++y)
+        for (int x = x0; x < std::min(x0 + block, resolution.width); ++x)
+          if (counts({x, y})) sum += static_cast<double>(luminance(value({x, y}))), ++n;
+      means.push_back(n > 0 ? sum / n : 0);
+    }
+  return means;
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> Method::make() const {
+  for (const IntegratorEntry& entry : integrator_registry()) {
+    if (entry.name != integrator) continue;
+    auto made = entry.make();
+    ParameterAssigner assigner(parameters);
+    made->describe(assigner);
+    return made;
+  }
+  std::abort();
+}
+
+std::string to_string(Quantity quantity) {
+  constexpr const char* k_names[] = {"image",    "direct", "vpl",                  "compensation",
+                                     "specular", "prefix", "vpl and compensation", "dx", "dy"};
+  return k_names[static_cast<std::size_t>(quantity)];
+}
+
+BlockMoments block_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
+                           const BlockOptions& options) {
+  BlockMoments result;
+  const Resolution resolution = scene.camera().resolution();
+  const auto add = [&](Quantity quantity, const std::function<Rgb(Pixel)>& value, const std::function<bool(Pixel)>& counts) {
+    const std::vector<double> means = block_means(resolution, options.block, value, counts);
+    std::vector<Moments>& blocks = result.blocks[quantity];
+    blocks.resize(means.size());
+    for (std::size_t i = 0; i < means.size(); ++i) blocks[i].add(means[i]);
+  };
+  for (int run = 0; run < options.runs; ++run) {
+    RenderSettings seeded = settings;
+    seeded.seed = hash_combine(options.seed, static_cast<std::uint64_t>(run));
+    const auto integrator = method.make();
+    integrator->prepare(scene, seeded);
+    Film film(resolution, {.gradients = integrator->traits().gradients, .parts = true});
+    for (int pass = 0; pass < options.passes; ++pass) integrator->render_pass(static_cast<std::uint32_t>(pass), film);
+    if (film.invalid_samples() > 0) std::abort();
+
+    const auto always = [](Pixel) { return true; };
+    const RgbImage primal = film.primal();
+    add(Quantity::image, [&](Pixel p) { return primal[p]; }, always);
+    RgbImage both(resolution);
+    for (int i = 0; i < k_part_count; ++i) {
+      const RgbImage part = film.part(static_cast<Part>(i));
+      add(static_cast<Quantity>(i + 1), [&](Pixel p) { return part[p]; }, always);
+      if (i == static_cast<int>(Part::vpl) || i == static_cast<int>(Part::compensation))
+        for (std::size_t k = 0; k < both.size(); ++k) both[k] += part[k];
+    }
+    add(Quantity::vpl_and_compensation, [&](Pixel p) { return both[p]; }, always);
+    const auto inside = [&](Pixel step) { return [=](Pixel p) { return resolution.contains(p + step); }; };
+    if (integrator->traits().gradients) {
+      MomentImage dx = film.half(0).dx, dy = film.half(0).dy;
+      dx.merge(film.half(1).dx), dy.merge(film.half(1).dy);
+      add(Quantity::dx, [&](Pixel p) { return dx.mean(p); }, inside({1, 0}));
+      add(Quantity::dy, [&](Pixel p) { return dy.mean(p); }, inside({0, 1}));
+    } else {
+      add(Quantity::dx, [&](Pixel p) { return primal[p + Pixel{1, 0}] - primal[p]; }, inside({1, 0}));
+      add(Quantity::dy, [&](Pixel p) { return primal[p + Pixel{0, 1}] - primal[p]; }, inside({0, 1}));
+    }
+  }
+  return result;
+}
+
+Comparison compare_blocks(const std::vector<Moments>& a, const std::vector<Moments>& b) {
+  Comparison comparison;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ++comparison.tests;
+    const double p = same_mean_p_value(a[i], b[i]);
+    if (p >= comparison.p_value) continue;
+    comparison.p_value = p, comparison.block = i;
+    comparison.mean_a = a[i].mean(), comparison.mean_b = b[i].mean();
+  }
+  return comparison;
+}
+
+}  // namespace gradslc

@@ -1,0 +1,34 @@
+#pragma once
+// Small scenes for tests, built in memory.
+
+#include "scene/scene.h"
+
+namespace gradslc {
+
+/// A parallelogram with corner `corner` and edges `u`, `v`; its normal is u x v.
+TriangleMesh quad(Point3 corner, Vec3 u, Vec3 v, std::uint32_t material);
+/// An axis-aligned box from `lower` to `upper`, normals inwards.
+TriangleMesh inward_box(Point3 lower, Point3 upper, std::uint32_t material);
+/// The same with normals outwards.
+TriangleMesh outward_box(Point3 lower, Point3 upper, std::uint32_t material);
+
+Material diffuse_material(Rgb albedo);
+Material mirror_material(Rgb reflectance = Rgb(1.0f));
+
+/// A camera at `position` that looks at `target`; `fov` in degrees, horizontal.
+PerspectiveCamera camera_at(Resolution resolution, Point3 position, Point3 target, float fov);
+
+/// A closed cube of side 2 seen from inside; all walls are Lambertian with `albedo` and emit radiance 1:
+/// a path of exactly D edges brings albedo^(D-1) everywhere.
+Scene closed_furnace(Rgb albedo, Resolution resolution, float scale = 1);
+
+/// A box of side 2 with coloured walls, a lamp under its ceiling and a block; with `mirror`, the block is a mirror that
+/// throws a caustic, and the back wall is a mirror, too.
+struct TestBox {
+  bool mirror = false;
+  float scale = 1;
+  float wall_albedo = 0.7f;
+};
+Scene test_box(Resolution resolution, const TestBox& options = {});
+
+}  // namespace gradslc

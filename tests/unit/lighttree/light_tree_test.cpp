@@ -1,0 +1,279 @@
+#include "lighttree/light_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "core/radix_sort.h"
+#include "lighttree/bounds.h"
+#include "lighttree/cut.h"
+#include "lighttree/descent.h"
+#include "support/random.h"
+#include "support/statistics.h"
+
+namespace gradslc {
+namespace {
+
+Vpl random_vpl(TestRandom& random, float spread) {
+  Vpl vpl;
+  vpl.position = Point3{} + spread * random.get1() * random.direction();
+  vpl.max_albedo = 0.01f + 0.99f * random.get1();
+  vpl.reflected_flux = vpl.max_albedo * Rgb(random.get1(), random.get1(), random.get1());
+  const Vec3 normal = random.direction();
+  vpl.geometric_normal = vpl.shading_normal = OctahedralNormal(normal);
+  vpl.vertex = 1;
+  return vpl;
+}
+
+std::vector<Vpl> random_vpls(TestRandom& random, std::size_t count, float spread = 1) {
+  std::vector<Vpl> vpls;
+  for (std::size_t i = 0; i < count; ++i) vpls.push_back(random_vpl(random, spread));
+  return vpls;
+}
+
+GatherPoint random_gather_point(TestRandom& random, float spread) {
+  GatherPoint x;
+  x.point.position = Point3{} + spread * random.get1() * random.direction();
+  x.point.shading = frame_from_normal(as_normal(random.direction()));
+  x.point.geometric_normal = x.point.shading.n;
+  x.bsdf = Bsdf(Diffuse{Rgb(random.get1(), random.get1(), random.get1())}, true);
+  do x.wo = random.direction();
+  while (std::abs(x.wo.z) < 1e-3f);
+  return x;
+}
+
+/// Calls visit(node) for every node below `start`.
+void for_each_node(const LightTree& tree, NodeIndex start, const std::function<void(NodeIndex)>& visit) {
+  std::vector<NodeIndex> stack{start};
+  while (!stack.empty()) {
+    const NodeIndex node = stack.back();
+    stack.pop_back();
+    visit(node);
+    if (tree.nodes[node].is_leaf()) continue;
+    stack.push_back(tree.nodes[node].left);
+    stack.push_back(tree.nodes[node].right);
+  }
+}
+
+std::vector<std::uint32_t> vpls_below(const LightTree& tree, NodeIndex start) {
+  std::vector<std::uint32_t> vpls;
+  for_each_node(tree, start, [&](NodeIndex node) {
+    if (tree.nodes[node].is_leaf()) vpls.push_back(tree.nodes[node].left);
+  });
+  return vpls;
+}
+
+TEST(RadixSort, EqualsAStableSort) {
+  TestRandom random(1);
+  for (const std::size_t count : {0u, 1u, 2u, 1000u, 200000u}) {
+    std::vector<SortRecord> records(count);
+    for (std::size_t i = 0; i < count; ++i) records[i] = {random.bits() >> (random.below(4) * 16), i};
+    auto expected = records;
+    std::stable_sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    radix_sort(records);
+    EXPECT_EQ(records, expected) << count;
+  }
+}
+
+class Builders : public testing::TestWithParam<const char*> {
+ protected:
+  static LightTree build(std::vector<Vpl> vpls) {
+    for (const BuilderEntry& entry : builder_registry())
+      if (std::string(entry.name) == GetParam()) return entry.build(std::move(vpls));
+    return {};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Builders, testing::ValuesIn([] {
+                           std::vector<const char*> names;
+                           for (const BuilderEntry& entry : builder_registry()) names.push_back(entry.name);
+                           return names;
+                         }()),
+                         [](const auto& entry) { return std::string(entry.param); });
+
+TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
+  TestRandom random(2);
+  for (const std::size_t count : {1u, 2u, 3u, 5u, 64u, 65u, 1000u}) {
+    const std::vector<Vpl> vpls = random_vpls(random, count);
+    const LightTree tree = build(vpls);
+    ASSERT_EQ(tree.vpls.size(), count);
+    std::vector<std::uint32_t> all = vpls_below(tree, 0);
+    std::sort(all.begin(), all.end());
+    std::vector<std::uint32_t> expected(count);
+    std::iota(expected.begin(), expected.end(), 0u);
+    EXPECT_EQ(all, expected);
+    double flux_in = 0, flux_out = 0;
+    for (const Vpl& vpl : vpls) flux_in += static_cast<double>(luminance(vpl.reflected_flux));
+    for (const Vpl& vpl : tree.vpls) flux_out += static_cast<double>(luminance(vpl.reflected_flux));
+    EXPECT_NEAR(flux_in, flux_out, 1e-6 * flux_in);
+    for_each_node(tree, 0, [&](NodeIndex node) {
+      for (const std::uint32_t i : vpls_below(tree, node)) {
+        EXPECT_TRUE(tree.nodes[node].box.contains(tree.vpls[i].position));
+        EXPECT_GE(dot(tree.nodes[node].cone_axis, tree.vpls[i].geometric_normal.decode()),
+                  tree.nodes[node].cone_cos - 1e-6f);
+      }
+    });
+  }
+}
+
+TEST_P(Builders, DegenerateInputs) {
+  EXPECT_TRUE(build({}).empty());
+  TestRandom random(3);
+  std::vector<Vpl> same(17, random_vpl(random, 1));
+  EXPECT_EQ(vpls_below(build(same), 0).size(), 17u);
+  for (Vpl& vpl : same) vpl.reflected_flux = Rgb();
+  const LightTree black = build(same);
+  const GatherPoint x = random_gather_point(random, 1);
+  const Receiver r = make_receiver(x);
+  EXPECT_EQ(cluster_bound(black.nodes[0], {&r, 1}, 1), 0);
+  LightCut cut;
+  find_cut(black, {&r, 1}, 1, 10, cut);
+  EXPECT_TRUE(cut.entries.empty());
+}
+
+TEST_P(Builders, SameBitsForAnyNumberOfThreads) {
+  TestRandom random(4);
+  const std::vector<Vpl> vpls = random_vpls(random, 30000);
+  const int threads_before = thread_count();
+  set_thread_count(1);
+  const LightTree one = build(vpls);
+  set_thread_count(7);
+  const LightTree seven = build(vpls);
+  set_thread_count(threads_before);
+  EXPECT_EQ(std::memcmp(one.nodes.data(), seven.nodes.data(), one.nodes.size() * sizeof(LightNode)), 0);
+  EXPECT_EQ(std::memcmp(one.vpls.data(), seven.vpls.data(), one.vpls.size() * sizeof(Vpl)), 0);
+}
+
+// The property of DESIGN 5: a node's bound is never below the sum of the contributions of its VPLs, and 0 only if all
+// of them are 0; finite inside boxes where connections are bounded.
+TEST_P(Builders, BoundsHoldForRandomNodesAndReceivers) {
+  TestRandom random(5);
+  std::size_t cases = 0;
+  for (int round = 0; round < 300; ++round) {
+    const float spread = std::exp(4 * random.get1() - 2);
+    const LightTree tree = build(random_vpls(random, 1 + random.below(100), spread));
+    for (int k = 0; k < 40; ++k) {
+      const GatherPoint x = random_gather_point(random, 1);
+      const float bound = random.below(3) == 0 ? k_infinity : std::exp(8 * random.get1() - 4);
+      std::vector<double> contribution(tree.vpls.size());
+      for (std::size_t i = 0; i < tree.vpls.size(); ++i)
+        contribution[i] = static_cast<double>(luminance(unshadowed_contribution(x, tree.vpls[i], bound)));
+      const Receiver r = make_receiver(x);
+      for_each_node(tree, 0, [&](NodeIndex node) {
+        ++cases;
+        double sum = 0;
+        for (const std::uint32_t i : vpls_below(tree, node)) sum += contribution[i];
+        const double node_bound = static_cast<double>(cluster_bound(tree.nodes[node], {&r, 1}, bound)) *
+                                  static_cast<double>(k_inv_pi * k_inv_pi);
+        ASSERT_GE(node_bound * (1 + 1e-5), sum);
+        if (std::isfinite(bound)) {
+          ASSERT_TRUE(std::isfinite(node_bound));
+        }
+      });
+    }
+  }
+  EXPECT_GT(cases, 1000000u);
+}
+
+TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
+  TestRandom random(6);
+  constexpr int k_draws = 40000;
+  std::vector<double> p_values;
+  for (int round = 0; round < 20; ++round) {
+    const LightTree tree = build(random_vpls(random, 1 + random.below(24)));
+    std::vector<GatherPoint> points;
+    std::vector<Receiver> receivers;
+    for (std::size_t k = 0; k < 1 + random.below(4); ++k) {
+      points.push_back(random_gather_point(random, 1.5f));
+      receivers.push_back(make_receiver(points.back()));
+    }
+    const float bound = 0.5f;
+    // The probability of every leaf by walking all branches with the one probability function.
+    std::vector<double> probability(tree.vpls.size(), 0);
+    const std::function<void(NodeIndex, double)> walk = [&](NodeIndex node, double p) {
+      if (tree.nodes[node].is_leaf()) {
+        probability[tree.nodes[node].left] = p;
+        return;
+      }
+      const auto left = left_probability(tree, node, receivers, bound);
+      if (!left) return;
+      walk(tree.nodes[node].left, p * *left);
+      walk(tree.nodes[node].right, p * (1 - *left));
+    };
+    walk(0, 1);
+    double lost = 1;
+    for (const double p : probability) lost -= p;
+    EXPECT_GE(lost, -1e-12);
+    for (std::size_t i = 0; i < tree.vpls.size(); ++i)
+      for (const GatherPoint& x : points)
+        if (!is_black(unshadowed_contribution(x, tree.vpls[i], bound))) {
+          EXPECT_GT(probability[i], 0);
+        }
+
+    std::vector<double> observed(tree.vpls.size() + 1, 0), expected(tree.vpls.size() + 1, 0);
+    std::uint64_t evaluations = 0;
+    for (int d = 0; d < k_draws; ++d) {
+      const auto sample = descend(tree, 0, receivers, bound, random.get1_double(), evaluations);
+      ++observed[sample ? sample->vpl : tree.vpls.size()];
+      if (sample) {
+        ASSERT_NEAR(sample->probability, probability[sample->vpl], 1e-9 * sample->probability);
+      }
+    }
+    for (std::size_t i = 0; i < tree.vpls.size(); ++i) expected[i] = k_draws * probability[i];
+    expected.back() = k_draws * std::max(lost, 0.0);
+    if (expected.back() < 1e-6) expected.back() = 0;
+    p_values.push_back(chi_square_test(observed, expected).p_value);
+  }
+  // False-alarm rate 0.1 %.
+  EXPECT_GT(*std::min_element(p_values.begin(), p_values.end()), sidak(0.001, p_values.size()));
+}
+
+TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
+  TestRandom random(7);
+  const LightTree tree = build(random_vpls(random, 100));
+  const GatherPoint x = random_gather_point(random, 0.5f);
+  const Receiver r = make_receiver(x);
+  LightCut cut;
+  for (const int size : {1, 2, 7, 50, 1000}) {
+    find_cut(tree, {&r, 1}, 1, size, cut);
+    EXPECT_LE(cut.entries.size(), static_cast<std::size_t>(size));
+    std::vector<int> covered(tree.vpls.size(), 0);
+    for (const LightCut::Entry& entry : cut.entries)
+      for (const std::uint32_t i : vpls_below(tree, entry.node)) ++covered[i];
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      EXPECT_LE(covered[i], 1);
+      if (!is_black(unshadowed_contribution(x, tree.vpls[i], 1))) {
+        EXPECT_EQ(covered[i], 1);
+      }
+    }
+    if (size < 1000) continue;
+    for (const LightCut::Entry& entry : cut.entries) EXPECT_TRUE(tree.nodes[entry.node].is_leaf());
+  }
+}
+
+TEST_P(Builders, ProbabilitiesDoNotDependOnTheUnitOfLength) {
+  TestRandom random(8);
+  std::vector<Vpl> vpls = random_vpls(random, 50), scaled = vpls;
+  constexpr float k_scale = 1024;
+  for (Vpl& vpl : scaled) vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
+  const LightTree tree = build(vpls), large = build(scaled);
+  std::vector<Receiver> receivers;
+  for (int k = 0; k < 3; ++k) receivers.push_back(make_receiver(random_gather_point(random, 1.2f)));
+  std::vector<Receiver> far = receivers;
+  for (Receiver& r : far) r.position = {k_scale * r.position.x, k_scale * r.position.y, k_scale * r.position.z};
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].is_leaf()) continue;
+    const auto small_p = left_probability(tree, node, receivers, 2);
+    const auto large_p = left_probability(large, node, far, 2 / (k_scale * k_scale));
+    ASSERT_EQ(small_p.has_value(), large_p.has_value());
+    if (small_p) {
+      EXPECT_NEAR(*small_p, *large_p, 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gradslc

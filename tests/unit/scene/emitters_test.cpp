@@ -1,0 +1,287 @@
+#include "scene/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include "core/warp.h"
+#include "scene_fixtures.h"
+#include "statistics.h"
+
+namespace gradslc {
+namespace {
+
+using test::Mean;
+using test::Random;
+
+/// A lamp of that radiance: index of its light is the number of lights before it.
+void add_lamp(SceneDescription& description, TriangleMesh mesh, Rgb radiance) {
+  mesh.area_light = static_cast<std::int32_t>(description.area_lights.size());
+  description.area_lights.push_back({radiance});
+  description.meshes.push_back(std::move(mesh));
+}
+
+/// Three lamps of different size, colour and tilt around the origin; one of them turns its back.
+Scene three_lamps() {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({-1, -0.5f, 1.5f}, {0.2f, 1.5f, 0.3f}, {2, 0, -0.4f}), Rgb(1, 2, 3));
+  add_lamp(description, test::parallelogram({1, 1, -1}, {0, -1, 0}, {0.3f, 0, -1}), Rgb(20, 4, 1));
+  add_lamp(description, test::parallelogram({-1, -1, -1}, {0, 1, 0}, {1, 0, 0}), Rgb(5, 5, 5));
+  return Scene(std::move(description));
+}
+
+/// Irradiance at `position` over pi from the emitters, estimated by light sampling and cosine sampling with the balance
+/// heuristic: finite variance also where the emitter touches, and right only if pdf_direct is sample_direct's density.
+double gathered(const Scene& scene, Point3 position, Normal3 normal, Random& random) {
+  double sum = 0;
+  const double u_select = random.uniform();
+  if (const auto light = scene.emitters().sample_direct(position, u_select, random.get2())) {
+    const float cosine = dot(light->wi, normal);
+    if (cosine > 0 && !scene.occluded(segment(position, light->position)))
+      sum += luminance(light->radiance) * cosine * k_inv_pi /
+             (light->pdf_solid_angle + cosine_hemisphere_pdf_solid_angle(cosine));
+  }
+  const Vec3 direction = frame_from_normal(normal).to_world(square_to_cosine_hemisphere(random.get2()));
+  if (const auto hit = scene.intersect({position, direction})) {
+    const float pdf = cosine_hemisphere_pdf_solid_angle(dot(direction, normal));
+    if (pdf > 0)
+      sum += luminance(scene.emitters().radiance(*hit, -direction)) * pdf /
+             (pdf + scene.emitters().pdf_direct(position, *hit));
+  }
+  return sum;
+}
+
+/// View factor between equal, aligned parallel rectangles x by y at distance 1 (Howell's catalogue, C-11).
+double parallel_view_factor(double x, double y) {
+  const double x1 = 1 + x * x, y1 = 1 + y * y;
+  return 2 / (std::numbers::pi * x * y) *
+         (0.5 * std::log(x1 * y1 / (x1 + y1 - 1)) + x * std::sqrt(y1) * std::atan(x / std::sqrt(y1)) +
+          y * std::sqrt(x1) * std::atan(y / std::sqrt(x1)) - x * std::atan(x) - y * std::atan(y));
+}
+
+/// View factor from a rectangle 1 by w to one 1 by h at right angles that shares the edge of length 1 (C-14).
+double perpendicular_view_factor(double w, double h) {
+  const double w2 = w * w, h2 = h * h, sum = w2 + h2;
+  return (w * std::atan(1 / w) + h * std::atan(1 / h) - std::sqrt(sum) * std::atan(1 / std::sqrt(sum)) +
+          0.25 * (std::log((1 + w2) * (1 + h2) / (1 + sum)) + w2 * std::log(w2 * (1 + sum) / ((1 + w2) * sum)) +
+                  h2 * std::log(h2 * (1 + sum) / ((1 + h2) * sum)))) /
+         (std::numbers::pi * w);
+}
+
+// False alarm 0.1 % for both view factors together.
+TEST(Emitters, GiveTheViewFactorOfParallelRectangles) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 1}, {0, 0.7f, 0}, {1.5f, 0, 0}), Rgb(1));
+  const Scene scene(std::move(description));
+  Random random(1);
+  Mean mean;
+  for (int i = 0; i < 100000; ++i) {
+    const Vec2 u = random.get2();
+    mean.add(gathered(scene, {1.5f * u.x, 0.7f * u.y, 0}, {0, 0, 1}, random));
+  }
+  EXPECT_GT(mean.p_value(parallel_view_factor(1.5, 0.7)), test::sidak(1e-3, 2)) << mean.mean();
+}
+
+TEST(Emitters, GiveTheViewFactorOfPerpendicularRectanglesThatTouch) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 2}), Rgb(1));  // faces +x
+  const Scene scene(std::move(description));
+  Random random(2);
+  Mean mean;
+  for (int i = 0; i < 100000; ++i) {
+    const Vec2 u = random.get2();
+    mean.add(gathered(scene, {0.5f * u.x, u.y, 0}, {0, 0, 1}, random));
+  }
+  EXPECT_GT(mean.p_value(perpendicular_view_factor(0.5, 2)), test::sidak(1e-3, 2)) << mean.mean();
+}
+
+// Directions of sample_direct against the integral of pdf_direct over cells of the sphere. False alarm 0.1 %.
+TEST(Emitters, SampleDirectFollowsPdfDirectOverSolidAngle) {
+  const Scene scene = three_lamps();
+  constexpr int k_rows = 40, k_columns = 80, k_sub = 16, k_samples = 200000;
+  const auto direction = [](double row, double column) {
+    const double z = 1 - 2 * row / k_rows, r = std::sqrt(1 - z * z), phi = 2 * std::numbers::pi * column / k_columns;
+    return Vec3{static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)), static_cast<float>(z)};
+  };
+  std::vector<double> observed(k_rows * k_columns), expected(k_rows * k_columns);
+  double integral = 0;
+  for (int row = 0; row < k_rows * k_sub; ++row)
+    for (int column = 0; column < k_columns * k_sub; ++column) {
+      const auto hit = scene.intersect({{0, 0, 0}, direction((row + 0.5) / k_sub, (column + 0.5) / k_sub)});
+      if (!hit) continue;
+      const double part =
+          scene.emitters().pdf_direct({0, 0, 0}, *hit) * 4 * std::numbers::pi / (k_rows * k_columns * k_sub * k_sub);
+      expected[static_cast<std::size_t>(row / k_sub * k_columns + column / k_sub)] += part * k_samples;
+      integral += part;
+    }
+  Random random(3);
+  int chosen = 0;
+  for (int i = 0; i < k_samples; ++i) {
+    const double u_select = random.uniform();
+    const auto sample = scene.emitters().sample_direct({0, 0, 0}, u_select, random.get2());
+    if (!sample) continue;
+    ++chosen;
+    double phi = std::atan2(sample->wi.y, sample->wi.x);
+    if (phi < 0) phi += 2 * std::numbers::pi;
+    const int row = std::min(static_cast<int>((1 - sample->wi.z) / 2 * k_rows), k_rows - 1);
+    const int column = std::min(static_cast<int>(phi / (2 * std::numbers::pi) * k_columns), k_columns - 1);
+    ++observed[static_cast<std::size_t>(row * k_columns + column)];
+  }
+  EXPECT_NEAR(integral, static_cast<double>(chosen) / k_samples,
+              0.004);  // the lamp that turns its back is chosen in vain
+  EXPECT_LT(integral, 0.95);
+  EXPECT_GT(test::chi_square_p_value(observed, expected), 1e-3);
+}
+
+TEST(Emitters, SampleAndPdfAgreeAtTheSamePoint) {
+  const Scene scene = three_lamps();
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Point3 reference = Point3() + 0.5f * square_to_sphere(random.get2());
+    const double u_select = random.uniform();
+    const auto sample = scene.emitters().sample_direct(reference, u_select, random.get2());
+    if (!sample) continue;
+    const auto hit = scene.intersect({reference, sample->wi});
+    if (!hit || distance(hit->position, sample->position) > 1e-4f) continue;  // another lamp stands before it
+    EXPECT_NEAR(scene.emitters().pdf_direct(reference, *hit) / sample->pdf_solid_angle, 1, 2e-4);
+    EXPECT_EQ(scene.emitters().radiance(*hit, -sample->wi), sample->radiance);
+    EXPECT_FALSE(scene.occluded(segment(reference, sample->position)));
+  }
+}
+
+TEST(Emitters, EmitOnTheSideOfTheNormalOnly) {
+  for (const bool flip : {false, true}) {
+    SceneDescription description = test::describe({});
+    TriangleMesh lamp = test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    lamp.flip_normals = flip;
+    add_lamp(description, std::move(lamp), Rgb(3));
+    const Scene scene(std::move(description));
+    for (const float side : {-1.0f, 1.0f}) {
+      const bool lit = (side > 0) != flip;
+      const Point3 reference{0.3f, 0.3f, side};
+      const auto hit = scene.intersect({reference, {0, 0, -side}});
+      ASSERT_TRUE(hit);
+      EXPECT_EQ(scene.emitters().radiance(*hit, {0, 0, side}), lit ? Rgb(3) : Rgb());
+      EXPECT_EQ(scene.emitters().pdf_direct(reference, *hit) > 0, lit);
+      EXPECT_EQ(scene.emitters().sample_direct(reference, 0.5, {0.5f, 0.5f}).has_value(), lit);
+    }
+    const EmissionSample emission = scene.emitters().sample_emission(0.5, {0.5f, 0.25f}, {0.3f, 0.7f});
+    EXPECT_EQ(emission.direction.z > 0, !flip);
+    EXPECT_EQ(emission.point.geometric_normal.z > 0, !flip);
+  }
+}
+
+TEST(Emitters, PowerIsPiTimesAreaTimesRadiance) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 0}, {2, 0, 0}, {0, 3, 0}), Rgb(1, 2, 3));
+  add_lamp(description, test::parallelogram({0, 0, 5}, {0.5f, 0, 0}, {0, 1, 0}), Rgb(10, 0, 0));
+  const Scene scene(std::move(description));
+  const Rgb power = scene.emitters().power();
+  EXPECT_FLOAT_EQ(power.r, k_pi * (6 * 1 + 0.5f * 10));
+  EXPECT_FLOAT_EQ(power.g, k_pi * 6 * 2);
+  EXPECT_FLOAT_EQ(power.b, k_pi * 6 * 3);
+}
+
+// Mean carried power is the power; directions have density cos / pi; lamps are chosen by luminance. False alarm 0.1 %
+// for all.
+TEST(Emitters, EmissionConservesEnergyAndFollowsTheCosine) {
+  const Scene scene = three_lamps();
+  constexpr int k_samples = 100000, k_cells = 16;
+  Mean carried[3];
+  std::vector<double> lamps(3), lamps_expected, cells(k_cells * k_cells);
+  Random random(6);
+  for (int i = 0; i < k_samples; ++i) {
+    const double u_select = random.uniform();
+    const Vec2 u_point = random.get2();
+    const EmissionSample sample = scene.emitters().sample_emission(u_select, u_point, random.get2());
+    for (int channel = 0; channel < 3; ++channel) carried[channel].add(sample.power[channel]);
+    ++lamps[sample.point.mesh];
+    const Vec3 local = sample.point.shading.to_local(sample.direction);
+    ASSERT_GT(local.z, 0);
+    ASSERT_NEAR(length(local), 1, 1e-5);
+    const auto cell = [](double u) {
+      return std::min(static_cast<std::size_t>(u * k_cells), std::size_t{k_cells - 1});
+    };
+    const double azimuth = std::atan2(local.y, local.x) / (2 * std::numbers::pi) + 0.5;
+    ++cells[cell(local.z * local.z) * k_cells + cell(azimuth)];  // cos^2 is uniform
+  }
+  const double alpha = test::sidak(1e-3, 5);
+  for (int channel = 0; channel < 3; ++channel)
+    EXPECT_GT(carried[channel].p_value(scene.emitters().power()[channel]), alpha);
+  EXPECT_GT(test::chi_square_p_value(cells, std::vector<double>(cells.size(), k_samples / 256.0)), alpha);
+  double total = 0;
+  for (const TriangleMesh& mesh : scene.meshes()) {
+    const float area = length(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[3] - mesh.positions[0]));
+    const std::array<Rgb, 3> radiances = {Rgb(1, 2, 3), Rgb(20, 4, 1), Rgb(5, 5, 5)};
+    lamps_expected.push_back(area * luminance(radiances[lamps_expected.size()]));
+    total += lamps_expected.back();
+  }
+  for (double& expected : lamps_expected) expected *= k_samples / total;
+  EXPECT_GT(test::chi_square_p_value(lamps, lamps_expected), alpha);
+}
+
+// Points are uniform over the lamp: cells of equal area get equal counts. False alarm 0.1 %.
+TEST(Emitters, EmissionIsUniformOverTheArea) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Rgb(1));
+  const Scene scene(std::move(description));
+  std::vector<double> cells(64);
+  Random random(8);
+  for (int i = 0; i < 64000; ++i) {
+    const double u_select = random.uniform();
+    const Vec2 u_point = random.get2();
+    const Point3 p = scene.emitters().sample_emission(u_select, u_point, {0.5f, 0.5f}).point.position;
+    ++cells[static_cast<std::size_t>(p.x * 8) * 8 + static_cast<std::size_t>(p.y * 8)];
+  }
+  EXPECT_GT(test::chi_square_p_value(cells, std::vector<double>(64, 1000)), 1e-3);
+}
+
+TEST(Emitters, NeverChooseBlackLampsOrTrianglesWithoutArea) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Rgb());
+  TriangleMesh half = test::parallelogram({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  half.triangles.insert(half.triangles.begin(), {0, 1, 1});  // no area
+  half.triangles.push_back({2, 2, 2});
+  add_lamp(description, std::move(half), Rgb(1));
+  add_lamp(description, test::parallelogram({0, 0, 2}, {1, 0, 0}, {0, 1, 0}), Rgb());
+  const Scene scene(std::move(description));
+  EXPECT_EQ(scene.emitters().size(), 2u);
+  EXPECT_EQ(scene.triangle_count(), 6u);
+  for (const double u : {0.0, 0.25, 0.5, 0.75, 0.9999999999999999}) {
+    const EmissionSample sample = scene.emitters().sample_emission(u, {0.4f, 0.3f}, {0.4f, 0.3f});
+    EXPECT_EQ(sample.point.mesh, 1u);
+    EXPECT_FLOAT_EQ(sample.power.r, k_pi);
+  }
+  const auto black = scene.intersect({{0.2f, 0.3f, 0.5f}, {0, 0, -1}});
+  ASSERT_TRUE(black);
+  EXPECT_EQ(scene.emitters().pdf_direct({0.2f, 0.3f, 0.5f}, *black), 0);
+  EXPECT_EQ(scene.emitters().radiance(*black, {0, 0, 1}), Rgb());
+}
+
+TEST(Emitters, MayBeAbsent) {
+  for (const bool black_lamp : {false, true}) {
+    SceneDescription description = test::describe(test::room());
+    if (black_lamp) add_lamp(description, test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Rgb());
+    const Scene scene(std::move(description));
+    EXPECT_TRUE(scene.emitters().empty());
+    EXPECT_EQ(scene.emitters().power(), Rgb());
+    EXPECT_FALSE(scene.emitters().sample_direct({0, 0, 0}, 0.5, {0.5f, 0.5f}));
+    const auto hit = scene.intersect({{0, 0, 0.5f}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(scene.emitters().radiance(*hit, {0, 0, 1}), Rgb());
+    EXPECT_EQ(scene.emitters().pdf_direct({0, 0, 0.5f}, *hit), 0);
+  }
+}
+
+// Densities stay finite and positive where the reference lies in the emitter's plane or on the emitter.
+TEST(Emitters, ReferencesInThePlaneOfTheLampAreNotLit) {
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::parallelogram({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Rgb(1));
+  const Scene scene(std::move(description));
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(scene.emitters().sample_direct({2, 0.5f, 0}, random.uniform(), random.get2()));
+    EXPECT_FALSE(scene.emitters().sample_direct({0.5f, 0.5f, 0}, random.uniform(), random.get2()));
+  }
+}
+
+}  // namespace
+}  // namespace gradslc

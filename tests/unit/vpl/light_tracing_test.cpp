@@ -1,0 +1,97 @@
+#include "vpl/light_tracing.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/parallel.h"
+#include "support/render/scenes.h"
+#include "support/statistics.h"
+
+namespace gradslc {
+namespace {
+
+LightTracingSettings settings_for(std::int64_t paths, int bounces, std::uint64_t seed = 1) {
+  return {
+      .light_paths = paths, .max_bounces = bounces, .lobes = {}, .sampler = SamplerKind::sobol, .seed = seed, .set = 0};
+}
+
+bool same_bits(const std::vector<Vpl>& a, const std::vector<Vpl>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vpl)) == 0;
+}
+
+// In a closed furnace every particle reaches a wall: the flux that the k-th vertices reflect is power * albedo^k.
+// False-alarm rate 0.1 %.
+TEST(LightTracing, ConservesEnergyAtEveryBounce) {
+  constexpr float k_albedo = 0.6f;
+  constexpr int k_bounces = 4, k_runs = 100;
+  const Scene scene = closed_furnace(Rgb(k_albedo), {4, 4});
+  std::vector<Moments> reflected(k_bounces + 1);
+  for (int run = 0; run < k_runs; ++run) {
+    std::vector<double> sum(k_bounces + 1);
+    for (const Vpl& vpl : trace_vpls(scene, settings_for(100, k_bounces, static_cast<std::uint64_t>(run))).vpls)
+      sum[vpl.vertex] += static_cast<double>(vpl.reflected_flux.g);
+    for (std::size_t k = 1; k < sum.size(); ++k) reflected[k].add(sum[k]);
+  }
+  const double power = static_cast<double>(scene.emitters().power().g);
+  EXPECT_NEAR(power, 24 * 3.14159265, 1e-3);
+  EXPECT_NEAR(reflected[1].mean(), 0.6 * power, 1e-3 * power);  // no choice is left to chance before the first vertex
+  for (std::size_t k = 2; k <= k_bounces; ++k)
+    EXPECT_GT(reflected[k].p_value(power * std::pow(0.6, static_cast<double>(k))), sidak(0.001, k_bounces - 1)) << k;
+}
+
+TEST(LightTracing, StopsAfterMaxBounces) {
+  const Scene scene = closed_furnace(Rgb(0.9f), {4, 4});
+  std::uint32_t deepest = 0;
+  for (const Vpl& vpl : trace_vpls(scene, settings_for(2000, 3)).vpls) deepest = std::max(deepest, vpl.vertex);
+  EXPECT_EQ(deepest, 3u);
+}
+
+TEST(LightTracing, SameBitsForAnyNumberOfThreads) {
+  const Scene scene = test_box({4, 4});
+  const int threads_before = thread_count();
+  set_thread_count(1);
+  const VplSet one = trace_vpls(scene, settings_for(5000, 5));
+  for (const int threads : {2, 7}) {
+    set_thread_count(threads);
+    const VplSet many = trace_vpls(scene, settings_for(5000, 5));
+    EXPECT_TRUE(same_bits(one.vpls, many.vpls)) << threads;
+    EXPECT_EQ(one.rays, many.rays);
+  }
+  set_thread_count(threads_before);
+}
+
+TEST(LightTracing, SetsContinueTheSequenceAndDiffer) {
+  const Scene scene = test_box({4, 4});
+  LightTracingSettings settings = settings_for(512, 2);
+  const VplSet first = trace_vpls(scene, settings);
+  settings.set = 1;
+  EXPECT_FALSE(same_bits(first.vpls, trace_vpls(scene, settings).vpls));
+}
+
+TEST(LightTracing, LeavesNoVplOnMirrorsNorOnBlackWalls) {
+  const Scene scene = test_box({4, 4}, {.mirror = true});
+  const auto set = trace_vpls(scene, settings_for(2000, 5));
+  ASSERT_FALSE(set.vpls.empty());
+  for (const Vpl& vpl : set.vpls) {
+    EXPECT_GT(vpl.max_albedo, 0);
+    const bool on_back_wall = vpl.position.z > 0.999f && std::abs(vpl.geometric_normal.decode().z) > 0.9f;
+    EXPECT_FALSE(on_back_wall) << "the back wall is a mirror";
+  }
+}
+
+TEST(LightTracing, LiesOnTheLitSide) {
+  const Scene scene = test_box({4, 4});
+  for (const Vpl& vpl : trace_vpls(scene, settings_for(2000, 4)).vpls)
+    EXPECT_GT(dot(vpl.geometric_normal.decode(), vpl.incoming.decode()), -1e-3f);
+}
+
+TEST(LightTracing, NoEmittersNoVpls) {
+  SceneDescription description;
+  description.materials = {diffuse_material(Rgb(0.5f))};
+  description.meshes = {inward_box({-1, -1, -1}, {1, 1, 1}, 0)};
+  EXPECT_TRUE(trace_vpls(Scene(std::move(description)), settings_for(100, 3)).vpls.empty());
+}
+
+}  // namespace
+}  // namespace gradslc
