@@ -1,0 +1,120 @@
+#include "experiments/method_run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "scene/scene.h"
+
+namespace gradslc {
+namespace {
+
+constexpr int k_halvings = 7;               // of a budget in seconds, for its curve
+constexpr std::size_t k_recent_passes = 8;  // that the next pass's time is predicted from
+
+}  // namespace
+
+std::vector<double> curve_targets(const Budget& budget) {
+  std::vector<double> targets;
+  if (budget.kind == Budget::Kind::spp) {
+    for (double passes = 1; passes < budget.value; passes *= 2) targets.push_back(passes);
+  } else {
+    for (int k = k_halvings; k > 0; --k) targets.push_back(std::ldexp(budget.value, -k));
+  }
+  targets.push_back(budget.value);
+  return targets;
+}
+
+MethodRun::MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, std::unique_ptr<Reconstruction> reconstruction,
+                     const Scene& scene, Clock clock)
+    : plan_(std::move(plan)),
+      integrator_(std::move(integrator)),
+      reconstruction_(std::move(reconstruction)),
+      scene_(scene),
+      clock_(std::move(clock)) {
+  assert(!plan_.targets.empty() && std::is_sorted(plan_.targets.begin(), plan_.targets.end()));
+}
+
+double MethodRun::progress() const {
+  if (done()) return 1;
+  const double used = plan_.budget.kind == Budget::Kind::spp ? passes_ : spent();
+  return std::min(1.0, used / plan_.budget.value);
+}
+
+std::optional<PointImage> MethodRun::step() {
+  assert(!done());
+  if (!film_) {
+    prepare();
+    return std::nullopt;
+  }
+  if (passes_ > 0) {
+    skip_missed_targets();
+    if (point_is_due()) return make_point();
+  }
+  render_pass();
+  return std::nullopt;
+}
+
+void MethodRun::prepare() {
+  prepare_ = measure(clock_, [&] {
+    integrator_->prepare(scene_, plan_.settings);
+    film_.emplace(scene_.camera().resolution(), FilmLayers{integrator_->traits().gradients, plan_.parts});
+  });
+}
+
+void MethodRun::render_pass() {
+  const Seconds time = measure(clock_, [&] { integrator_->render_pass(static_cast<std::uint32_t>(passes_), *film_); });
+  render_ += time;
+  const std::size_t slot = static_cast<std::size_t>(passes_) % k_recent_passes;
+  if (slot == recent_pass_seconds_.size()) recent_pass_seconds_.push_back(time.wall);
+  recent_pass_seconds_[slot] = time.wall;
+  ++passes_;
+}
+
+double MethodRun::predicted_pass_seconds() const {
+  return std::accumulate(recent_pass_seconds_.begin(), recent_pass_seconds_.end(), 0.0) /
+         static_cast<double>(recent_pass_seconds_.size());
+}
+
+void MethodRun::skip_missed_targets() {
+  if (plan_.budget.kind == Budget::Kind::spp) return;
+  const double tolerance = passes_ > 1 ? predicted_pass_seconds() : 0;
+  const auto missed = [&](double target) {
+    return passes_ == last_point_passes_ || spent() + reconstruct_seconds_ > target + tolerance;
+  };
+  while (!is_final_target() && point_is_due() && missed(plan_.targets[next_target_])) ++next_target_;
+}
+
+bool MethodRun::point_is_due() const {
+  const double target = plan_.targets[next_target_];
+  if (plan_.budget.kind == Budget::Kind::spp) return passes_ >= target;
+  return spent() + predicted_pass_seconds() + reconstruct_seconds_ > target;
+}
+
+PointImage MethodRun::make_point() {
+  CurvePoint point;
+  point.target = plan_.targets[next_target_];
+  point.final = is_final_target();
+  point.passes = passes_;
+  point.prepare = prepare_;
+  point.render = render_;
+  point.rays = integrator_->statistics().rays;
+  point.invalid_samples = film_->invalid_samples();
+  point.pass_seconds = predicted_pass_seconds();
+  FinalImage result;
+  point.reconstruct = measure(clock_, [&] { result = final_image(*film_, reconstruction_.get()); });
+  point.reconstruction = result.reconstruction;
+  reconstruct_seconds_ = point.reconstruct.wall;
+  last_point_passes_ = passes_;
+  ++next_target_;
+  return {point, std::move(result.image)};
+}
+
+Film MethodRun::take_film() {
+  assert(done());
+  for (const int half : {0, 1}) film_->close_set(half);
+  return std::move(*film_);
+}
+
+}  // namespace gradslc

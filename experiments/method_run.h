@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/clock.h"
+#include "experiments/experiment.h"
+#include "experiments/reconstruct.h"
+
+namespace gradslc {
+
+/// Where a method stood when it gave an image: a point of its convergence curve.
+struct CurvePoint {
+  double target = 0;   ///< passes or wall seconds that the point was planned for
+  bool final = false;  ///< the whole budget
+  int passes = 0;
+  Seconds prepare, render;
+  Seconds reconstruct;  ///< of this point alone
+  std::uint64_t rays = 0;
+  std::uint64_t invalid_samples = 0;
+  double pass_seconds = 0;  ///< predicted wall time of one more pass
+  std::optional<ReconstructionStatistics> reconstruction;
+
+  /// What the point cost: earlier points' reconstructions are not part of it.
+  Seconds total() const { return prepare + render + reconstruct; }
+};
+
+/// A curve point with the image that it has.
+struct PointImage {
+  CurvePoint point;
+  RgbImage image;
+};
+
+/// Targets of a budget's curve points, ascending, the budget last: passes 1, 2, 4, ...; or seconds budget / 2^k down to
+/// 1/128 of the budget.
+std::vector<double> curve_targets(const Budget& budget);
+
+/// One method on its way through its budget (DESIGN 8). Does one unit of work at a time, so that methods can take
+/// turns; its clock runs only inside step().
+class MethodRun {
+ public:
+  struct Plan {
+    std::string name;
+    RenderSettings settings;
+    Budget budget;
+    bool parts = false;
+    std::vector<double> targets;  ///< of curve points, ascending, the budget last
+  };
+  /// `scene` must outlive the run. `reconstruction` may be null. `clock` tells the time.
+  MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, std::unique_ptr<Reconstruction> reconstruction,
+            const Scene& scene, Clock clock);
+
+  bool done() const { return next_target_ == plan_.targets.size(); }
+  /// Share of the budget that is used, in seconds or passes, at most 1; 1 when done.
+  double progress() const;
+  /// Prepares the method, or renders a pass, or gives the image of a curve point that is due; only while !done().
+  /// A point is due when its passes are there, or when one more pass and the point's reconstruction, as long as earlier
+  /// ones took, would end beyond its seconds. Points before whose seconds there was no image, or that lie more than a
+  /// pass behind, are left out; the final one is not, and gets one pass at least.
+  std::optional<PointImage> step();
+
+  const std::string& name() const { return plan_.name; }
+  int passes() const { return passes_; }
+  Seconds prepare_time() const { return prepare_; }
+  Seconds render_time() const { return render_; }
+  const Film& film() const { return *film_; }  ///< only after the first step
+  Film take_film();                            ///< only when done; sets that are still open are closed
+  IntegratorTraits traits() const { return integrator_->traits(); }
+  IntegratorStatistics statistics() const { return integrator_->statistics(); }
+
+ private:
+  void prepare();
+  void render_pass();
+  PointImage make_point();
+  void skip_missed_targets();
+  bool point_is_due() const;
+  double predicted_pass_seconds() const;
+  double spent() const { return prepare_.wall + render_.wall; }
+  bool is_final_target() const { return next_target_ + 1 == plan_.targets.size(); }
+
+  Plan plan_;
+  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<Reconstruction> reconstruction_;
+  const Scene& scene_;
+  Clock clock_;
+  std::optional<Film> film_;  // made once the method has said whether it has gradients
+  int passes_ = 0;
+  Seconds prepare_, render_;
+  std::vector<double> recent_pass_seconds_;  // of the last passes, a ring
+  double reconstruct_seconds_ = 0;           // what the last point's took
+  int last_point_passes_ = 0;
+  std::size_t next_target_ = 0;
+};
+
+}  // namespace gradslc
