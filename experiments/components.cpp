@@ -3,28 +3,29 @@
 namespace gradslc {
 namespace {
 
-struct NamedComponent {
-  const char* name;
-  bool Components::*member;
+constexpr ComponentEntry k_components[] = {
+    {"emission", "emitters seen by the camera, paths of one edge", &Components::emission},
+    {"direct", "light that was scattered once, two edges", &Components::direct},
+    {"indirect", "light that was scattered more often, three edges and more", &Components::indirect},
 };
-constexpr NamedComponent k_components[] = {
-    {"emission", &Components::emission}, {"direct", &Components::direct}, {"indirect", &Components::indirect}};
 
 }  // namespace
+
+std::span<const ComponentEntry> component_registry() { return k_components; }
 
 std::vector<std::string> component_names() { return names_of(Components{true, true, true}); }
 
 std::vector<std::string> names_of(const Components& components) {
   std::vector<std::string> names;
-  for (const NamedComponent& component : k_components)
-    if (components.*component.member) names.emplace_back(component.name);
+  for (const ComponentEntry& entry : k_components)
+    if (components.*entry.member) names.emplace_back(entry.name);
   return names;
 }
 
 bool include_component(Components& components, std::string_view name) {
-  for (const NamedComponent& component : k_components) {
-    if (name != component.name) continue;
-    components.*component.member = true;
+  for (const ComponentEntry& entry : k_components) {
+    if (name != entry.name) continue;
+    components.*entry.member = true;
     return true;
   }
   return false;

@@ -15,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* k_no_reconstruction = "none";
+constexpr std::size_t k_longest_label = 100;  // bytes; file systems take 255
 
 template <class Entry>
 const Entry* find_entry(std::span<const Entry> entries, std::string_view name) {
@@ -146,17 +147,18 @@ std::unique_ptr<Reconstruction> make_reconstruction(const MethodPlan& method, co
 }
 
 bool is_label(const std::string& name) {
-  constexpr std::size_t k_longest = 100;
-  if (name.empty() || name.size() > k_longest) return false;
-  if (name.front() == '.' || name.front() == '-' || name.front() == ' ' || name.back() == ' ') return false;
+  if (name.empty() || name.size() > k_longest_label) return false;
+  if (name.front() == '.' || name.front() == ' ' || name.back() == ' ') return false;
   return std::none_of(name.begin(), name.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
-    return byte < ' ' || byte == 0x7f || std::string_view("/\\\"'`,:;|*?<>$").find(c) != std::string_view::npos;
+    return byte < ' ' || byte == 0x7f;
   });
 }
 
 std::string unusable_label(const std::string& name) {
-  return fmt::format("\"{}\" cannot name a file: use at most 100 letters, digits, blanks and ._+-=()", name);
+  return fmt::format(
+      "{} is no usable name: 1 to {} bytes, no control characters, no \".\" or blank first, no blank last",
+      json(name).dump(), k_longest_label);
 }
 
 }  // namespace gradslc

@@ -35,8 +35,8 @@ std::unique_ptr<Integrator> make_integrator(const MethodPlan& method, const Regi
 /// nullptr for "none".
 std::unique_ptr<Reconstruction> make_reconstruction(const MethodPlan& method, const Registries& registries);
 
-/// Whether `name` can name files, columns and rows: not empty, at most 100 bytes, no leading "." or "-", no blank at
-/// either end, no control characters and none of / \ " ' ` , : ; | * ? < > $
+/// Whether `name` can name a row of a table and, with what is special to a file system replaced, a file: 1 to 100 bytes
+/// without control characters, no "." or blank first, no blank last.
 bool is_label(const std::string& name);
 /// The message about a name that is none.
 std::string unusable_label(const std::string& name);

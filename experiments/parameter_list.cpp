@@ -54,6 +54,13 @@ std::string allowed_values(const ParameterInfo& parameter) {
   return range_text(parameter.range, parameter.unit);
 }
 
+std::string default_text(const ParameterInfo& parameter) {
+  const nlohmann::json& value = parameter.default_value;
+  return value.is_string()   ? value.get<std::string>()
+         : value.is_number() ? fmt::format("{}", value.get<double>())
+                             : value.dump();
+}
+
 nlohmann::json to_json(const ParameterInfo& parameter) {
   nlohmann::json entry = {{"path", parameter.path},
                           {"type", parameter.type},

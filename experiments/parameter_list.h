@@ -48,6 +48,8 @@ bool has_practical_upper_limit(const Range& range);
 std::string range_text(const Range& range, std::string_view unit);
 /// What values it takes, for people: "1 to 64 [pixels]", "at least 0", "none | clamp".
 std::string allowed_values(const ParameterInfo& parameter);
+/// Its default, for people.
+std::string default_text(const ParameterInfo& parameter);
 /// Keys path, type, default, minimum, maximum, choices, unit, meaning; those that say nothing are left out.
 nlohmann::json to_json(const ParameterInfo& parameter);
 

@@ -153,7 +153,9 @@ TEST_F(Config, EachSlipHasOneMessage) {
       {R"({"seed": -1})", "/seed: must be at least 0, not -1"},
       {R"({"max_depth": 0})", "/max_depth: must be 1 to 1024 [edges], not 0"},
       {R"({"name": 3})", "/name: must be a string, not 3"},
-      {R"({"name": "a/b"})", "/name: \"a/b\" cannot name a file: use at most 100 letters, digits, blanks and ._+-=()"},
+      {R"({"name": ".a"})",
+       "/name: \".a\" is no usable name: 1 to 100 bytes, no control characters, no \".\" or blank first, no blank "
+       "last"},
       {R"({"sampler": "halton"})", "/sampler: \"halton\" is unknown; known: independent, sobol"},
       {R"({"components": []})", "/components: is empty; known: emission, direct, indirect"},
       {R"({"components": "direct"})", "/components: must be an array, not a string"},
@@ -182,7 +184,8 @@ TEST_F(Config, EachSlipHasOneMessage) {
       {R"({"methods": ["spt", "spt"]})",
        "/methods/1/name: the name \"spt\" is given twice; add a \"name\" that tells them apart"},
       {R"({"methods": [{"name": "..", "integrator": "spt"}]})",
-       "/methods/0/name: \"..\" cannot name a file: use at most 100 letters, digits, blanks and ._+-=()"},
+       "/methods/0/name: \"..\" is no usable name: 1 to 100 bytes, no control characters, no \".\" or blank first, no "
+       "blank last"},
       {R"({"methods": [{"integrator": "slc", "cut_sise": 10}]})",
        "/methods/0/cut_sise: unknown key; did you mean \"cut_size\"?"},
       {R"({"methods": [{"integrator": "slc", "vpl": {"light_paths": -840000}}]})",
@@ -255,11 +258,9 @@ TEST_F(Config, MakesWhatAMethodAsksFor) {
 }
 
 TEST(Label, IsWhatCanNameFilesAndTableRows) {
-  for (const char* good : {"SPT", "SLC cut=10", "GradSLC (replay)", "a.b", "\xce\xb1 0.2"})
+  for (const char* good : {"SPT", "SLC cut=10", "GradSLC (replay), 84k", "a.b", "a/b", "\xce\xb1 0.2"})
     EXPECT_TRUE(is_label(good)) << good;
-  for (const char* bad :
-       {"", ".", "..", ".hidden", "-o", "a/b", "a\\b", "a,b", "a|b", "a\"b", "a\nb", " a", "a ", "a:b"})
-    EXPECT_FALSE(is_label(bad)) << bad;
+  for (const char* bad : {"", ".", "..", ".hidden", "a\nb", "a\x7f", " a", "a "}) EXPECT_FALSE(is_label(bad)) << bad;
   EXPECT_FALSE(is_label(std::string(101, 'a')));
 }
 
