@@ -10,6 +10,7 @@
 #include "core/vec.h"
 #include "scene/mesh.h"
 #include "scene/surface.h"
+#include "scene/triangle.h"
 
 namespace gradslc {
 
@@ -57,10 +58,10 @@ class Emitters {
  private:
   struct EmissiveTriangle {
     Point3 a, b, c;
-    Normal3 normal;  // on the emitting side
-    double area;
+    TrianglePlane plane;  // its normal on the emitting side
     Rgb radiance;
     std::uint32_t mesh, triangle, material;
+    double area() const { return plane.double_area / 2; }
   };
   static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
   std::size_t find(const SurfacePoint& hit) const;  // index into triangles_ or k_none

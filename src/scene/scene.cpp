@@ -144,9 +144,9 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   const auto& t = mesh.triangles[hit.hit.primID];
   const Point3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
   const float b1 = hit.hit.u, b2 = hit.hit.v;
-  const Normal3 winding = triangle_plane(a, b, c).normal;
-  const Normal3 normal = mesh.flip_normals ? -winding : winding;
-  const auto [position, error] = triangle_position(a, b, c, normal, b1, b2);
+  const TrianglePlane plane = triangle_plane(a, b, c);
+  const Normal3 normal = mesh.flip_normals ? -plane.normal : plane.normal;
+  const auto [position, error] = triangle_position(a, b, c, plane, b1, b2);
   const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
   return SurfacePoint{position,
                       normal,

@@ -25,27 +25,29 @@ TrianglePlane triangle_plane(Point3 a, Point3 b, Point3 c) {
   const Double3 n = cross(subtract(b, a), subtract(c, a));
   const double double_area = length(n);
   if (!(double_area > 0)) return {0, {}};
-  const auto component = [&](double value) { return static_cast<float>(value / double_area); };
-  return {double_area, {component(n.x), component(n.y), component(n.z)}};
+  const double scale = 1 / double_area;
+  return {double_area,
+          {static_cast<float>(n.x * scale), static_cast<float>(n.y * scale), static_cast<float>(n.z * scale)}};
 }
 
-TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, Normal3 normal, float b1, float b2) {
+TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TrianglePlane& plane, float b1, float b2) {
   const Double3 ab = subtract(b, a), ac = subtract(c, a);
-  const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
-  const double longest = std::max({edges[0], edges[1], edges[2]});
-  const double double_area = length(cross(ab, ac));
-  const double slenderness = std::max(1.0, edges[0] * edges[1] * edges[2] / (longest * double_area));
-
   const double w1 = std::clamp(double{b1}, 0.0, 1.0);
   const double w2 = std::clamp(double{b2}, 0.0, 1.0 - w1);
-  const auto rounding_at = [&](double v1, double v2) {
-    return std::abs(normal.x * (a.x + v1 * ab.x + v2 * ac.x)) + std::abs(normal.y * (a.y + v1 * ab.y + v2 * ac.y)) +
-           std::abs(normal.z * (a.z + v1 * ab.z + v2 * ac.z));
-  };
-  const double error = k_unit_roundoff * (2 * rounding_at(w1, w2) + k_plane_roundings * longest * slenderness);
+  const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
+  const double longest = std::max({edges[0], edges[1], edges[2]});
+  const double per_area = 1 / plane.double_area;
+
+  // longest * slenderness is the product of all edges over twice the area, but at least the longest edge.
+  const double extent = std::max(longest, edges[0] * edges[1] * edges[2] * per_area);
+  const double rounding = std::abs(plane.normal.x * (a.x + w1 * ab.x + w2 * ac.x)) +
+                          std::abs(plane.normal.y * (a.y + w1 * ab.y + w2 * ac.y)) +
+                          std::abs(plane.normal.z * (a.z + w1 * ab.z + w2 * ac.z));
+  const double error = k_unit_roundoff * (2 * rounding + k_plane_roundings * extent);
 
   // The height over an edge is double_area / edge: what `error` is as a barycentric coordinate.
-  const auto inset = [&](double edge) { return std::min(error * edge / double_area, 1.0 / 3); };
+  const double per_edge = error * per_area;
+  const auto inset = [&](double edge) { return std::min(per_edge * edge, 1.0 / 3); };
   const double inset1 = inset(edges[1]), inset2 = inset(edges[2]);
   const double kept = 1 - inset(edges[0]) - inset1 - inset2;
   const double v1 = inset1 + kept * w1, v2 = inset2 + kept * w2;

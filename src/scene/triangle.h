@@ -18,6 +18,7 @@ struct TrianglePosition {
 };
 
 /// The point (1 - b1 - b2) a + b1 b + b2 c of a triangle with positive area; b1, b2 >= 0, b1 + b2 <= 1 up to rounding.
+/// `plane` is the triangle's; its normal n may point to either side.
 ///
 /// `error` scales with the scene and is the sum of two parts, u = 2^-24 the unit roundoff:
 /// - 2 u (|n| . |p|): the position is interpolated in double and rounded to float once per axis, which moves it by at
@@ -26,6 +27,6 @@ struct TrianglePosition {
 ///   s >= 1 the amplification of rounding in the cross product of slender triangles (product of the two shorter edges
 ///   over twice the area). First-order analysis gives k = 6 (difference to the origin 1, cross product 2, dot product
 ///   3); k = 12 is used.
-TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, Normal3 normal, float b1, float b2);
+TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TrianglePlane& plane, float b1, float b2);
 
 }  // namespace gradslc

@@ -16,6 +16,8 @@ namespace {
 constexpr int k_max_include_depth = 16;
 constexpr std::size_t k_max_documents = 10000;  // a file that includes twice what includes twice ... ends somewhere
 constexpr int k_max_element_depth = 64;
+constexpr std::size_t k_max_value =
+    65536;  // characters after substitution: defaults made of defaults grow exponentially
 
 bool is_identifier_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
@@ -125,8 +127,8 @@ void MitsubaDocument::add_id(const XmlElement& element, const std::string& id, s
   const auto [existing, added] = ids_.emplace(id, element);
   if (added) return;
   const XmlElement& first = existing->second;
-  const SourcePosition where = first.document->position(first.node);
-  fail(element, fmt::format("id \"{}\" is taken already, at {}:{}", id, where.file, where.line), attribute);
+  fail(element, fmt::format("id \"{}\" is taken already, at {}:{}", id, first.document->file(), line(first)),
+       attribute);
 }
 
 void MitsubaDocument::check_definitions() const {
@@ -180,6 +182,8 @@ std::string MitsubaDocument::substitute(const XmlElement& element, const char* n
     }
     used_definitions_.insert(std::string(parameter));
     result += definitions_.find(parameter)->second;
+    if (result.size() > k_max_value)
+      fail(element, fmt::format("the value is longer than {} characters", k_max_value), name);
     i += parameter.size();
   }
   return result;

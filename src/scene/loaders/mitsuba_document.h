@@ -25,7 +25,7 @@ class MitsubaDocument {
   /// The <scene> of the outermost file.
   XmlElement root() const { return {documents_.front().get(), documents_.front()->root()}; }
   /// Line of an element in its file.
-  int line(const XmlElement& element) const { return element.document->position(element.node).line; }
+  int line(const XmlElement& element) const { return element.document->line(element.node); }
   /// The objects of the scene, those of included files in the place of the include.
   const std::vector<XmlElement>& objects() const { return objects_; }
   /// The element with that id, wherever it stands; a null node where there is none.

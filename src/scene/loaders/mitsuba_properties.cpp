@@ -48,17 +48,14 @@ void MitsubaProperties::add(const XmlElement& child) {
   }
   if (contains(k_property_tags, entry.type) && entry.name.empty())
     document_.fail(child, fmt::format("a <{}> needs a name", entry.type));
-  const auto same_name = [&](const Entry& other) { return other.name == entry.name; };
-  if (!entry.name.empty() && std::any_of(entries_.begin(), entries_.end(), same_name))
+  if (!entry.name.empty() && !given_.insert(entry.name).second)
     document_.fail(child, fmt::format("property \"{}\" is given twice", entry.name), "name");
   entries_.push_back(std::move(entry));
 }
 
 std::string MitsubaProperties::id() const { return document_.attribute(element_, "id"); }
 
-bool MitsubaProperties::has(std::string_view name) const {
-  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.name == name; });
-}
+bool MitsubaProperties::has(std::string_view name) const { return given_.contains(name); }
 
 MitsubaProperties::Entry* MitsubaProperties::take(std::string_view name) {
   known_.emplace(name);

@@ -59,6 +59,7 @@ class MitsubaProperties {
   XmlElement element_;
   std::string plugin_;
   std::vector<Entry> entries_;
+  std::set<std::string, std::less<>> given_;  // names in the file
   std::set<std::string, std::less<>> known_;  // names that were asked for
 };
 

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/triangle.h"
 
 namespace gradslc {
 namespace {
@@ -206,19 +207,28 @@ std::uint32_t ObjParser::vertex(const Corner& corner) {
   return added;
 }
 
-float angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+/// Between edges that are not zero.
+float angle_between(Vec3 a, Vec3 b) {
+  a = normalize(a), b = normalize(b);
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+TrianglePlane plane(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return triangle_plane(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+}
 
 /// Mean of the adjoining triangles' normals by their angles at the vertex (Thuermer and Wuethrich 1998, "Computing
 /// Vertex Normals from Polygonal Facets"); zero where they cancel.
 void compute_normals(TriangleMesh& mesh) {
   std::vector<Vec3> sums(mesh.positions.size());
   for (const auto& triangle : mesh.triangles) {
-    const Point3 corner[3] = {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
-    const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    if (!(length_squared(normal) > 0)) continue;
+    const auto [double_area, normal] = plane(mesh, triangle);
+    if (double_area == 0) continue;
     for (std::size_t i = 0; i < 3; ++i) {
-      const float angle = angle_between(corner[(i + 1) % 3] - corner[i], corner[(i + 2) % 3] - corner[i]);
-      sums[triangle[i]] = sums[triangle[i]] + angle * normalize(normal);
+      const Point3 corner = mesh.positions[triangle[i]];
+      const float angle =
+          angle_between(mesh.positions[triangle[(i + 1) % 3]] - corner, mesh.positions[triangle[(i + 2) % 3]] - corner);
+      sums[triangle[i]] = sums[triangle[i]] + angle * as_vec(normal);
     }
   }
   mesh.normals.clear();
@@ -226,10 +236,11 @@ void compute_normals(TriangleMesh& mesh) {
 }
 
 void wind_by_normals(TriangleMesh& mesh) {
-  for (auto& [i, j, k] : mesh.triangles) {
-    const Vec3 winding = cross(mesh.positions[j] - mesh.positions[i], mesh.positions[k] - mesh.positions[i]);
+  for (auto& triangle : mesh.triangles) {
+    const auto& [i, j, k] = triangle;
     const Vec3 sum = as_vec(mesh.normals[i]) + as_vec(mesh.normals[j]) + as_vec(mesh.normals[k]);
-    if (dot(winding, sum) < 0) std::swap(j, k);
+    const auto [double_area, normal] = plane(mesh, triangle);
+    if (double_area > 0 && dot(normal, sum) < 0) std::swap(triangle[1], triangle[2]);
   }
 }
 

@@ -53,7 +53,10 @@ std::size_t find_attribute(std::string_view text, std::size_t begin, std::string
 
 XmlDocument::XmlDocument(const std::filesystem::path& file) : XmlDocument(file.string(), read_file(file)) {}
 
-XmlDocument::XmlDocument(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
+XmlDocument::XmlDocument(std::string file, std::string text)
+    : file_(std::move(file)), text_(std::move(text)), line_begins_{0} {
+  for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1))
+    line_begins_.push_back(end + 1);
   const pugi::xml_parse_result result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result)
@@ -72,19 +75,26 @@ SourcePosition XmlDocument::position(pugi::xml_node node, std::string_view attri
   return where;
 }
 
+int XmlDocument::line(pugi::xml_node node) const {
+  return static_cast<int>(line_index(static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)))) + 1;
+}
+
+std::size_t XmlDocument::line_index(std::size_t offset) const {
+  const auto next = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+  return static_cast<std::size_t>(next - line_begins_.begin()) - 1;
+}
+
 SourcePosition XmlDocument::position_of_byte(std::size_t offset) const {
-  const std::string_view text = text_;
-  offset = std::min(offset, text.size());
-  const std::string_view before = text.substr(0, offset);
-  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 = 0
-  const std::size_t line_end = std::min(text.find('\n', offset), text.size());
+  offset = std::min(offset, text_.size());
+  const std::size_t line = line_index(offset), begin = line_begins_[line];
+  const std::size_t end = line + 1 < line_begins_.size() ? line_begins_[line + 1] - 1 : text_.size();
   SourcePosition where{.file = file_, .pointer = {}, .excerpt = {}};
-  where.line = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
-  where.column = static_cast<int>(offset - line_begin) + 1;
-  if (line_end - line_begin <= k_max_excerpt) {
-    where.excerpt = std::string(text.substr(line_begin, line_end - line_begin));
+  where.line = static_cast<int>(line) + 1;
+  where.column = static_cast<int>(offset - begin) + 1;
+  if (end - begin <= k_max_excerpt) {
+    where.excerpt = text_.substr(begin, end - begin);
     std::replace(where.excerpt.begin(), where.excerpt.end(), '\t', ' ');
-    if (!where.excerpt.empty() && where.excerpt.back() == '\r') where.excerpt.pop_back();
+    if (where.excerpt.ends_with('\r')) where.excerpt.pop_back();
   }
   return where;
 }

@@ -4,6 +4,7 @@
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.h"
 
@@ -23,11 +24,15 @@ class XmlDocument {
   pugi::xml_node root() const { return document_.document_element(); }
   /// Position of an element, or of one of its attributes where `attribute` names one that it has.
   SourcePosition position(pugi::xml_node node, std::string_view attribute = {}) const;
+  /// Line of an element, from 1.
+  int line(pugi::xml_node node) const;
 
  private:
+  std::size_t line_index(std::size_t offset) const;  // from 0
   SourcePosition position_of_byte(std::size_t offset) const;
 
   std::string file_, text_;
+  std::vector<std::size_t> line_begins_;
   pugi::xml_document document_;
 };
 

@@ -464,6 +464,15 @@ TEST(LoaderErrors, RefuseElementsNestedWithoutEnd) {
   EXPECT_NE(refusal(deep).find("elements are nested more than 64 deep"), std::string::npos);
 }
 
+TEST(LoaderErrors, RefuseValuesThatGrowWithoutEnd) {
+  std::string body = R"(<default name="p0" value="0123456789"/>)";
+  for (int i = 0; i < 30; ++i)
+    body += fmt::format(R"(<default name="p{}x" value="$p{}$p{}"/>)", std::string(static_cast<std::size_t>(i) + 1, 'q'),
+                        i == 0 ? "0" : std::string(static_cast<std::size_t>(i), 'q') + "x",
+                        i == 0 ? "0" : std::string(static_cast<std::size_t>(i), 'q') + "x");
+  EXPECT_NE(refusal(body).find("the value is longer than 65536 characters"), std::string::npos);
+}
+
 TEST(LoaderErrors, RefuseDefinitionsOfNothing) {
   LoadOptions options;
   options.definitions = {{"spq", "3"}};
