@@ -20,10 +20,10 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [i, j, k] = mesh.triangles[t];
       const Point3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
-      TrianglePlane plane = triangle_plane(a, b, c);
-      if (mesh.flip_normals) plane.normal = -plane.normal;
+      TriangleShape shape = triangle_shape(a, b, c);
+      if (mesh.flip_normals) shape.normal = -shape.normal;
       triangles_.push_back(
-          {a, b, c, plane, radiance, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t), mesh.material});
+          {a, b, c, shape, radiance, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t), mesh.material});
       const double area = triangles_.back().area();
       weights.push_back(area * std::numbers::pi * luminance(radiance));
       for (int channel = 0; channel < 3; ++channel) power[channel] += area * std::numbers::pi * radiance[channel];
@@ -43,11 +43,11 @@ std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_s
   const std::size_t index = by_power_.sample(u_select).index;
   const EmissiveTriangle& triangle = triangles_[index];
   const Vec2 b = square_to_triangle(u);
-  const TrianglePosition point = triangle_position(triangle.a, triangle.b, triangle.c, triangle.plane, b.x, b.y);
+  const TrianglePosition point = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
   const float pdf = pdf_solid_angle(index, reference, point.position);
   if (!(pdf > 0)) return std::nullopt;
   const Vec3 to_emitter = point.position - reference;
-  return DirectSample{offset_position(point.position, triangle.plane.normal, point.error, -to_emitter),
+  return DirectSample{offset_position(point.position, triangle.shape.normal, point.error, -to_emitter),
                       normalize(to_emitter), triangle.radiance, pdf};
 }
 
@@ -58,7 +58,7 @@ float Emitters::pdf_direct(Point3 reference, const SurfacePoint& hit) const {
 
 Rgb Emitters::radiance(const SurfacePoint& hit, Vec3 wo) const {
   const std::size_t index = find(hit);
-  return index != k_none && dot(triangles_[index].plane.normal, wo) > 0 ? triangles_[index].radiance : Rgb();
+  return index != k_none && dot(triangles_[index].shape.normal, wo) > 0 ? triangles_[index].radiance : Rgb();
 }
 
 EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_direction) const {
@@ -66,12 +66,12 @@ EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_d
   const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
   const EmissiveTriangle& triangle = triangles_[choice.index];
   const Vec2 b = square_to_triangle(u_point);
-  const auto [position, error] = triangle_position(triangle.a, triangle.b, triangle.c, triangle.plane, b.x, b.y);
-  const Frame frame = frame_from_normal(triangle.plane.normal);
+  const auto [position, error] = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
+  const Frame frame = frame_from_normal(triangle.shape.normal);
   const Vec3 direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
   // Le cos / (probability / area * cos / pi)
   const auto flux = static_cast<float>(std::numbers::pi * triangle.area() / choice.probability);
-  return {{position, triangle.plane.normal, frame, b, triangle.mesh, triangle.triangle, triangle.material, error},
+  return {{position, triangle.shape.normal, frame, b, triangle.mesh, triangle.triangle, triangle.material, error},
           direction,
           flux * triangle.radiance};
 }
@@ -87,7 +87,7 @@ float Emitters::pdf_solid_angle(std::size_t index, Point3 reference, Point3 posi
   const EmissiveTriangle& triangle = triangles_[index];
   const Vec3 to_reference = reference - position;
   const double squared = length_squared(to_reference);
-  const double projected = dot(triangle.plane.normal, to_reference);  // distance times cosine
+  const double projected = dot(triangle.shape.normal, to_reference);  // distance times cosine
   if (!(projected > 0)) return 0;
   const double pdf = by_power_.probability(index) / triangle.area() * squared * std::sqrt(squared) / projected;
   return std::isfinite(pdf) ? static_cast<float>(pdf) : 0;

@@ -58,10 +58,10 @@ class Emitters {
  private:
   struct EmissiveTriangle {
     Point3 a, b, c;
-    TrianglePlane plane;  // its normal on the emitting side
+    TriangleShape shape;  // its normal on the emitting side
     Rgb radiance;
     std::uint32_t mesh, triangle, material;
-    double area() const { return plane.double_area / 2; }
+    double area() const { return shape.double_area / 2; }
   };
   static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
   std::size_t find(const SurfacePoint& hit) const;  // index into triangles_ or k_none

@@ -47,7 +47,7 @@ void check_mesh(const TriangleMesh& mesh) {
 
 void remove_empty_triangles(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, [&](const auto& t) {
-    return triangle_plane(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).double_area == 0;
+    return triangle_shape(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).double_area == 0;
   });
 }
 

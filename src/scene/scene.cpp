@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "scene/triangle.h"
 
 namespace gradslc {
@@ -55,6 +56,19 @@ Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t,
   const float squared = length_squared(sum);
   if (!(squared > 0)) return geometric;
   return face_forward(as_normal(sum / std::sqrt(squared)), as_vec(geometric));
+}
+
+/// Shapes of all triangles, normals on the mesh's side.
+std::vector<TriangleShape> triangle_shapes(const TriangleMesh& mesh) {
+  std::vector<TriangleShape> shapes(mesh.triangles.size());
+  parallel_for(shapes.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& t = mesh.triangles[i];
+      shapes[i] = triangle_shape(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+      if (mesh.flip_normals) shapes[i].normal = -shapes[i].normal;
+    }
+  });
+  return shapes;
 }
 
 }  // namespace
@@ -123,6 +137,7 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     remove_empty_triangles(mesh);
     bounds_.extend(mesh.bounds());
   }
+  for (const TriangleMesh& mesh : description_.meshes) shapes_.push_back(triangle_shapes(mesh));
   emitters_ = Emitters(description_.meshes, description_.area_lights);
   embree_ = std::make_unique<Embree>(description_.meshes);
 }
@@ -144,9 +159,9 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   const auto& t = mesh.triangles[hit.hit.primID];
   const Point3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
   const float b1 = hit.hit.u, b2 = hit.hit.v;
-  const TrianglePlane plane = triangle_plane(a, b, c);
-  const Normal3 normal = mesh.flip_normals ? -plane.normal : plane.normal;
-  const auto [position, error] = triangle_position(a, b, c, plane, b1, b2);
+  const TriangleShape& shape = shapes_[hit.hit.geomID][hit.hit.primID];
+  const Normal3 normal = shape.normal;
+  const auto [position, error] = triangle_position(a, b, c, shape, b1, b2);
   const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
   return SurfacePoint{position,
                       normal,
@@ -176,7 +191,8 @@ std::size_t Scene::memory_bytes() const {
   std::size_t bytes = static_cast<std::size_t>(embree_->bytes.load());
   for (const TriangleMesh& mesh : description_.meshes)
     bytes += mesh.positions.size() * sizeof(Point3) + mesh.normals.size() * sizeof(Normal3) +
-             mesh.uvs.size() * sizeof(Vec2) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+             mesh.uvs.size() * sizeof(Vec2) +
+             mesh.triangles.size() * (sizeof(mesh.triangles[0]) + sizeof(TriangleShape));
   return bytes;
 }
 

@@ -13,6 +13,7 @@
 #include "scene/emitters.h"
 #include "scene/mesh.h"
 #include "scene/surface.h"
+#include "scene/triangle.h"
 
 namespace gradslc {
 
@@ -55,6 +56,7 @@ class Scene {
  private:
   struct Embree;
   SceneDescription description_;
+  std::vector<std::vector<TriangleShape>> shapes_;  // per mesh and triangle
   Emitters emitters_;
   Bounds3 bounds_;
   std::unique_ptr<Embree> embree_;

@@ -21,35 +21,37 @@ double length(Double3 a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); 
 
 }  // namespace
 
-TrianglePlane triangle_plane(Point3 a, Point3 b, Point3 c) {
-  const Double3 n = cross(subtract(b, a), subtract(c, a));
-  const double double_area = length(n);
-  if (!(double_area > 0)) return {0, {}};
-  const double scale = 1 / double_area;
-  return {double_area,
-          {static_cast<float>(n.x * scale), static_cast<float>(n.y * scale), static_cast<float>(n.z * scale)}};
+TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
+  const Double3 ab = subtract(b, a), ac = subtract(c, a);
+  const Double3 n = cross(ab, ac);
+  TriangleShape shape;
+  shape.double_area = length(n);
+  if (!(shape.double_area > 0)) return shape;
+  const double per_area = 1 / shape.double_area;
+  shape.normal = {static_cast<float>(n.x * per_area), static_cast<float>(n.y * per_area),
+                  static_cast<float>(n.z * per_area)};
+  const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
+  // longest * slenderness is the product of all edges over twice the area, but at least the longest edge.
+  const double longest = std::max({edges[0], edges[1], edges[2]});
+  shape.extent = static_cast<float>(std::max(longest, edges[0] * edges[1] * edges[2] * per_area));
+  for (int i = 0; i < 3; ++i) shape.height_inverse[i] = static_cast<float>(edges[i] * per_area);
+  return shape;
 }
 
-TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TrianglePlane& plane, float b1, float b2) {
+TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TriangleShape& shape, float b1, float b2) {
   const Double3 ab = subtract(b, a), ac = subtract(c, a);
   const double w1 = std::clamp(double{b1}, 0.0, 1.0);
   const double w2 = std::clamp(double{b2}, 0.0, 1.0 - w1);
-  const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
-  const double longest = std::max({edges[0], edges[1], edges[2]});
-  const double per_area = 1 / plane.double_area;
+  const Normal3 n = shape.normal;
+  const double rounding = std::abs(n.x * (a.x + w1 * ab.x + w2 * ac.x)) +
+                          std::abs(n.y * (a.y + w1 * ab.y + w2 * ac.y)) + std::abs(n.z * (a.z + w1 * ab.z + w2 * ac.z));
+  const double error = k_unit_roundoff * (2 * rounding + k_plane_roundings * static_cast<double>(shape.extent));
 
-  // longest * slenderness is the product of all edges over twice the area, but at least the longest edge.
-  const double extent = std::max(longest, edges[0] * edges[1] * edges[2] * per_area);
-  const double rounding = std::abs(plane.normal.x * (a.x + w1 * ab.x + w2 * ac.x)) +
-                          std::abs(plane.normal.y * (a.y + w1 * ab.y + w2 * ac.y)) +
-                          std::abs(plane.normal.z * (a.z + w1 * ab.z + w2 * ac.z));
-  const double error = k_unit_roundoff * (2 * rounding + k_plane_roundings * extent);
-
-  // The height over an edge is double_area / edge: what `error` is as a barycentric coordinate.
-  const double per_edge = error * per_area;
-  const auto inset = [&](double edge) { return std::min(per_edge * edge, 1.0 / 3); };
-  const double inset1 = inset(edges[1]), inset2 = inset(edges[2]);
-  const double kept = 1 - inset(edges[0]) - inset1 - inset2;
+  const auto inset = [&](int corner) {
+    return std::min(error * static_cast<double>(shape.height_inverse[corner]), 1.0 / 3);
+  };
+  const double inset1 = inset(1), inset2 = inset(2);
+  const double kept = 1 - inset(0) - inset1 - inset2;
   const double v1 = inset1 + kept * w1, v2 = inset2 + kept * w2;
   const auto at = [&](float origin, double u, double v) { return static_cast<float>(origin + v1 * u + v2 * v); };
   return {{at(a.x, ab.x, ac.x), at(a.y, ab.y, ac.y), at(a.z, ab.z, ac.z)}, static_cast<float>(error)};

@@ -4,12 +4,15 @@
 
 namespace gradslc {
 
-/// Twice the area and the unit normal of the winding a, b, c. `normal` is meaningless where `double_area` is 0.
-struct TrianglePlane {
-  double double_area;
-  Normal3 normal;
+/// What depends on a triangle's corners alone, made once per triangle. `normal` and `height_inverse` are meaningless
+/// where `double_area` is 0.
+struct TriangleShape {
+  double double_area = 0;        ///< twice the area
+  Normal3 normal;                ///< unit, of the winding a, b, c
+  float extent = 0;              ///< L s of triangle_position()
+  float height_inverse[3] = {};  ///< 1 / height over the edge opposite to a, b, c: distances to barycentric coordinates
 };
-TrianglePlane triangle_plane(Point3 a, Point3 b, Point3 c);
+TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c);
 
 /// A point of a triangle, rounded to float once.
 struct TrianglePosition {
@@ -18,7 +21,7 @@ struct TrianglePosition {
 };
 
 /// The point (1 - b1 - b2) a + b1 b + b2 c of a triangle with positive area; b1, b2 >= 0, b1 + b2 <= 1 up to rounding.
-/// `plane` is the triangle's; its normal n may point to either side.
+/// `shape` is the triangle's; its normal is n.
 ///
 /// `error` scales with the scene and is the sum of two parts, u = 2^-24 the unit roundoff:
 /// - 2 u (|n| . |p|): the position is interpolated in double and rounded to float once per axis, which moves it by at
@@ -27,6 +30,6 @@ struct TrianglePosition {
 ///   s >= 1 the amplification of rounding in the cross product of slender triangles (product of the two shorter edges
 ///   over twice the area). First-order analysis gives k = 6 (difference to the origin 1, cross product 2, dot product
 ///   3); k = 12 is used.
-TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TrianglePlane& plane, float b1, float b2);
+TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TriangleShape& shape, float b1, float b2);
 
 }  // namespace gradslc
