@@ -111,8 +111,13 @@ std::string MitsubaProperties::text(std::string_view name, std::string_view defa
 }
 
 Rgb MitsubaProperties::colour(std::string_view name, Rgb default_value) {
-  const Entry* entry = take(name, {"rgb", "srgb", "spectrum", "float"}, "an <rgb>, <spectrum> or <float>");
+  const Entry* entry = take(name, {"rgb", "srgb", "spectrum", "float", "texture"}, "an <rgb>, <spectrum> or <float>");
   if (!entry) return default_value;
+  if (entry->type == "texture") {
+    document_.unknown(entry->element, fmt::format("\"{}\": textures are not supported; give an <rgb>", name), {},
+                      "its default takes its place");
+    return default_value;
+  }
   const std::string text = value(*entry);
   if (text.find(':') != std::string::npos)
     fail(name, fmt::format("\"{}\": spectra by wavelength are not supported; give an <rgb>", name));
