@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/temporary_folder.h"
 #include "unit/experiments/config_fixture.h"
 
 namespace gradslc {

@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "e2e/program.h"
+
+namespace gradslc {
+namespace {
+
+using nlohmann::json;
+using testing::content_of;
+using testing::Outcome;
+
+class Commands : public testing::ProgramTest {};
+
+TEST_F(Commands, HelpAndVersionSucceed) {
+  for (const char* command : {"render", "run", "report", "compare", "info", "list", "validate"}) {
+    const Outcome help = run({command, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.output.find(std::string("gradslc ") + command), std::string::npos) << "no example: " << help.output;
+  }
+  EXPECT_EQ(run({"--help"}).exit_code, 0);
+  EXPECT_TRUE(run({"--version"}).output.starts_with("gradslc "));
+}
+
+TEST_F(Commands, ListKnowsEveryKind) {
+  const json kinds = json::parse(run({"list", "--json"}).output);
+  ASSERT_GE(kinds.size(), 6u);
+  for (const json& kind : kinds) {
+    const std::string name = kind.at("name").get<std::string>();
+    const Outcome text = run({"list", name}), data = run({"list", name, "--json"});
+    EXPECT_EQ(text.exit_code, 0) << name;
+    const json entries = json::parse(data.output);
+    EXPECT_FALSE(entries.empty()) << name;
+    for (const json& entry : entries) {
+      EXPECT_FALSE(entry.at("meaning").get<std::string>().empty()) << entry;
+      EXPECT_NE(text.output.find(entry.at("name").get<std::string>()), std::string::npos) << entry;
+    }
+  }
+}
+
+TEST_F(Commands, EveryDefaultParameterIsAValidOne) {
+  for (const json& integrator : json::parse(run({"list", "integrators", "--json"}).output)) {
+    std::vector<std::string> arguments = {"render", "scene.xml", "--spp", "1", "--method", integrator.at("name")};
+    for (const json& parameter : integrator.value("parameters", json::array())) {
+      arguments.push_back("--set");
+      arguments.push_back(parameter.at("path").get<std::string>() + "=" + parameter.at("default").dump());
+    }
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << integrator.at("name") << ": " << outcome.errors;
+  }
+}
+
+TEST_F(Commands, InfoSaysWhatASceneHolds) {
+  const json info = json::parse(run({"info", "scene.xml", "--json"}).output);
+  EXPECT_EQ(info.at("width"), 16);
+  EXPECT_EQ(info.at("height"), 12);
+  EXPECT_EQ(info.at("meshes"), 3);
+  EXPECT_EQ(info.at("triangles"), 6);
+  EXPECT_EQ(info.at("emitters"), 2);
+  EXPECT_EQ(run({"info", "scene.xml"}).exit_code, 0);
+}
+
+TEST_F(Commands, RenderWritesTheImageAndSaysWhatItCost) {
+  const Outcome outcome = run({"render", "scene.xml", "--spp", "4", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const json summary = json::parse(outcome.output);
+  EXPECT_EQ(summary.at("width"), 16);
+  EXPECT_EQ(summary.at("height"), 12);
+  EXPECT_EQ(summary.at("passes"), 4);
+  EXPECT_GT(summary.at("wall_seconds"), 0);
+  EXPECT_GT(summary.at("cpu_seconds"), 0);
+  EXPECT_GT(summary.at("rays"), 0);
+  ASSERT_EQ(summary.at("mean").size(), 3u);
+  EXPECT_GT(summary.at("mean").at(0), 0);
+  const json manifest = json::parse(content_of(folder_.path() / "scene.json"));
+  EXPECT_EQ(manifest.at("method").at("integrator"), "spt");
+  EXPECT_EQ(files(), (std::vector<std::string>{"scene.exr", "scene.json", "scene.xml"}));
+}
+
+TEST_F(Commands, RenderWritesAPngToLookAt) {
+  ASSERT_EQ(run({"render", "scene.xml", "--spp", "1", "-o", "a.png"}).exit_code, 0);
+  EXPECT_TRUE(content_of(folder_.path() / "a.png").starts_with("\x89PNG"));
+}
+
+TEST_F(Commands, QuietSaysNothing) {
+  const Outcome outcome = run({"render", "scene.xml", "--spp", "1", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.output + outcome.errors, "");
+}
+
+TEST_F(Commands, OptionsReachTheRenderer) {
+  const auto mean = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"render", "scene.xml", "--spp", "2", "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    return outcome.exit_code == 0 ? json::parse(outcome.output).at("mean") : json();
+  };
+  const json all = mean({});
+  EXPECT_EQ(mean({}), all) << "the same seed gives the same bits";
+  EXPECT_NE(mean({"--seed", "2"}), all);
+  EXPECT_NE(mean({"--sampler", "independent"}), all);
+  EXPECT_NE(mean({"--max-depth", "2"}), all);
+  EXPECT_NE(mean({"--method", R"({"integrator": "slc", "cut_size": 2})"}), all);
+  const double direct = mean({"--components", "direct"}).at(0),
+               rest = mean({"--components", "emission,indirect"}).at(0);
+  EXPECT_NEAR(direct + rest, all.at(0).get<double>(), 1e-5);
+  EXPECT_EQ(mean({"--components", "indirect", "--max-depth", "2"}), json({0.0, 0.0, 0.0}));
+  const json sized = json::parse(run({"render", "scene.xml", "--spp", "1", "--width", "8", "--json"}).output);
+  EXPECT_EQ(sized.at("width"), 8);
+  EXPECT_EQ(sized.at("height"), 6);
+}
+
+TEST_F(Commands, CompareOfAnImageWithItselfIsZero) {
+  ASSERT_EQ(run({"render", "scene.xml", "--spp", "1", "-o", "a.exr"}).exit_code, 0);
+  const json metrics = json::parse(run({"compare", "a.exr", "a.exr", "--json"}).output);
+  for (const char* name : {"mse", "relmse", "relmse_trimmed", "mape", "smape", "mean_bias"})
+    EXPECT_EQ(metrics.at(name), 0) << name;
+  EXPECT_NE(run({"compare", "a.exr", "a.exr"}).output.find("relmse_trimmed"), std::string::npos);
+}
+
+TEST_F(Commands, RunWritesResultsAndReportRepeatsTheTables) {
+  folder_.write("tiny.json", R"({ "scenes": [{"file": "scene.xml"}], "repeats": 2, "components": ["indirect"],
+    "methods": ["spt", {"name": "Grad", "integrator": "gradslc", "vpl": {"light_paths": 50}, "reconstruction": "l2"}],
+    "budget": {"spp": 4}, "reference": {"spp": 16} })");
+  EXPECT_EQ(run({"validate", "tiny.json"}).exit_code, 0);
+  const Outcome outcome = run({"run", "tiny.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::filesystem::path results = folder_.path() / "results" / "tiny";
+  const std::string csv = content_of(results / "results.csv");
+  EXPECT_TRUE(
+      csv.starts_with("scene,method,point,repeat,passes,spp,wall_seconds,cpu_seconds,prepare_seconds,render_seconds,"
+                      "reconstruct_seconds,rays,mse,relmse,relmse_trimmed,mape,smape,mean_bias"))
+      << csv.substr(0, csv.find('\n'));
+  EXPECT_NE(csv.find("\nscene,spt,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nscene,Grad,"), std::string::npos) << csv;
+  std::filesystem::remove(results / "report.md");
+  EXPECT_EQ(run({"report", "results/tiny"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(results / "report.md"));
+}
+
+TEST_F(Commands, AnyNumberOfThreadsGivesTheSameBits) {
+  for (const char* method : {"spt", R"({"integrator": "vpl", "vpl": {"light_paths": 40}})",
+                             R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
+                             R"({"integrator": "gradslc", "shift": "reconnection", "reconstruction": "weighted"})",
+                             R"({"integrator": "gradslc", "shift": "random_replay", "reconstruction": "l2"})"}) {
+    std::vector<std::string> images;
+    for (const char* threads : {"1", "2", "7"}) {
+      const Outcome outcome = run({"render", "scene.xml", "--spp", "4", "--seed", "3", "--parts", "--threads", threads,
+                                   "--method", method, "-o", "a.exr"});
+      ASSERT_EQ(outcome.exit_code, 0) << method << ": " << outcome.errors;
+      images.push_back(content_of(folder_.path() / "a.exr"));
+    }
+    EXPECT_FALSE(images[0].empty());
+    EXPECT_TRUE(images[0] == images[1]) << method << ": 1 and 2 threads differ";
+    EXPECT_TRUE(images[0] == images[2]) << method << ": 1 and 7 threads differ";
+  }
+}
+
+}  // namespace
+}  // namespace gradslc
