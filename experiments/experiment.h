@@ -44,7 +44,7 @@ struct ReferencePlan {
 
 /// A config, resolved and validated: everything that a run depends on.
 struct Experiment {
-  std::string name;
+  std::string name, description;
   RenderSettings settings;  ///< seed, max_depth, components, sampler
   int repeats = 1;
   bool parts = false;

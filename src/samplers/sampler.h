@@ -42,7 +42,7 @@ std::span<const SamplerEntry> sampler_registry();
 /// The random numbers of one sample: a pure function of (kind, seed, stream, sample, use, index), without state.
 /// `stream` is what is sampled (a pixel, a group of pixels, the light paths); `sample` counts its samples, and a
 /// low-discrepancy sampler stratifies over it. Numbers of different streams, seeds, uses and indices are independent.
-/// The same name gives the same bits in get1 and get1_double, and unrelated ones in get2: ask for one of them only.
+/// get1, get1_double and x of get2 are the same number where use and index are the same: ask for one of them only.
 class SampleStream {
  public:
   SampleStream(SamplerKind kind, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)

@@ -20,6 +20,7 @@ namespace gradslc {
 struct SceneDescription {
   std::vector<TriangleMesh> meshes;
   std::vector<Material> materials;
+  std::vector<std::string> material_kinds;  ///< plug-ins of each material ("twosided diffuse"); may be left empty
   std::vector<AreaLight> area_lights;
   PerspectiveCamera camera;
   std::vector<std::string> notes;  ///< what the file asks for that has no effect here, once each
@@ -43,6 +44,7 @@ class Scene {
   const Emitters& emitters() const { return emitters_; }
   const std::vector<TriangleMesh>& meshes() const { return description_.meshes; }
   const std::vector<Material>& materials() const { return description_.materials; }
+  const std::vector<std::string>& material_kinds() const { return description_.material_kinds; }
   const Material& material(const SurfacePoint& point) const { return description_.materials[point.material]; }
   const std::vector<std::string>& notes() const { return description_.notes; }
   Bounds3 bounds() const { return bounds_; }

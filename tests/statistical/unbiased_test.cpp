@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "scene/loaders/loader.h"
 #include "support/render/method.h"
 #include "support/render/scenes.h"
 
@@ -12,8 +15,8 @@ namespace {
 
 constexpr double k_false_alarm = 0.001;  // of one TEST
 constexpr Resolution k_resolution{32, 32};
-constexpr BlockOptions k_options{.runs = 48, .passes = 8, .block = 8, .seed = 5};
-constexpr BlockOptions k_reference_options{.runs = 48, .passes = 64, .block = 8, .seed = 6};
+constexpr BlockOptions k_options{.runs = 32, .passes = 4, .block = 8, .seed = 5};
+constexpr BlockOptions k_reference_options{.runs = 32, .passes = 32, .block = 8, .seed = 6};
 
 const std::vector<Method>& lightcut_methods() {
   static const std::vector<Method> k_methods = {
@@ -62,6 +65,12 @@ TEST(Unbiased, MirrorBoxAllLight) {
 TEST(Unbiased, MirrorBoxIndirectLight) {
   expect_unbiased(test_box(k_resolution, {.mirror = true}),
                   {.max_depth = 6, .components = {.emission = false, .direct = false}}, lightcut_methods());
+}
+
+TEST(Unbiased, RealCornellBox) {
+  const std::filesystem::path file = std::filesystem::path(GRADSLC_SHARED_DIR) / "scenes/cornell-box/scene_v0.6.xml";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
+  expect_unbiased(Scene(load_scene(file.string(), {.width = 32, .height = 32})), {.max_depth = 7}, lightcut_methods());
 }
 
 TEST(Unbiased, IndependentSampler) {

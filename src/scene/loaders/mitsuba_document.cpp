@@ -105,7 +105,7 @@ void MitsubaDocument::read_default(const XmlElement& element) {
 void MitsubaDocument::read_alias(const XmlElement& element) {
   const std::string id = required_attribute(element, "id");
   const XmlElement target = find(id);
-  if (!target.node) fail(element, fmt::format("alias of an unknown id \"{}\"{}", id, suggestion(id, ids())), "id");
+  if (!target.node) fail(element, fmt::format("alias of an unknown id \"{}\"{}", id, id_hint(id)), "id");
   add_id(target, required_attribute(element, "as"), {});
 }
 
@@ -145,7 +145,9 @@ XmlElement MitsubaDocument::find(std::string_view id) const {
   return found == ids_.end() ? XmlElement() : found->second;
 }
 
-std::vector<std::string> MitsubaDocument::ids() const { return keys(ids_); }
+std::string MitsubaDocument::id_hint(std::string_view id) const {
+  return ids_.empty() ? "; there are no ids" : suggestion(id, keys(ids_));
+}
 
 std::string MitsubaDocument::attribute(const XmlElement& element, const char* name) const {
   return substitute(element, name, element.node.attribute(name).value());
@@ -195,9 +197,10 @@ void MitsubaDocument::fail(const XmlElement& element, std::string message, std::
   throw_input_error(element.document->position(element.node, attribute), std::move(message));
 }
 
-void MitsubaDocument::unknown(const XmlElement& element, std::string message, std::string_view attribute) {
+void MitsubaDocument::unknown(const XmlElement& element, std::string message, std::string_view attribute,
+                              std::string_view instead) {
   if (!options_.permissive) fail(element, std::move(message), attribute);
-  note(element, message + "; ignored");
+  note(element, fmt::format("{}; {}", message, instead));
 }
 
 void MitsubaDocument::note(const XmlElement& element, std::string_view message) {

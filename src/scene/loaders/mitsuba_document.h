@@ -30,7 +30,8 @@ class MitsubaDocument {
   const std::vector<XmlElement>& objects() const { return objects_; }
   /// The element with that id, wherever it stands; a null node where there is none.
   XmlElement find(std::string_view id) const;
-  std::vector<std::string> ids() const;
+  /// End of a message about an unknown id: the nearest one, or all.
+  std::string id_hint(std::string_view id) const;
 
   /// Value of an attribute with every $name replaced; empty where the attribute is missing.
   std::string attribute(const XmlElement& element, const char* name) const;
@@ -45,8 +46,10 @@ class MitsubaDocument {
 
   /// Throws Error (input) at the element or, where it is given, at one of its attributes.
   [[noreturn]] void fail(const XmlElement& element, std::string message, std::string_view attribute = {}) const;
-  /// What is not recognised: an error, or a note where the options are permissive.
-  void unknown(const XmlElement& element, std::string message, std::string_view attribute = {});
+  /// What is not recognised: an error, or a note where the options are permissive. `instead` says in the note what is
+  /// done about it.
+  void unknown(const XmlElement& element, std::string message, std::string_view attribute = {},
+               std::string_view instead = "ignored");
   /// What is recognised and has no effect.
   void note(const XmlElement& element, std::string_view message);
   const std::vector<std::string>& notes() const { return notes_; }

@@ -23,7 +23,8 @@ class SceneBuilder {
   SceneDescription build() {
     for (const XmlElement& object : document_.objects()) add(object);
     if (!has_sensor_) document_.fail(document_.root(), "the scene has no <sensor>");
-    scene_.materials = materials_.take();
+    scene_.materials = materials_.take_materials();
+    scene_.material_kinds = materials_.take_kinds();
     scene_.notes = document_.notes();
     return std::move(scene_);
   }

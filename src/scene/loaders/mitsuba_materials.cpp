@@ -28,31 +28,41 @@ class MaterialPropertyReader final : public PropertyReader {
   Texture texture(std::string_view name, Rgb default_value) override { return Texture(colour(name, default_value)); }
   std::vector<Material> nested_materials() override {
     std::vector<Material> nested;
-    for (const XmlElement& bsdf : properties_.objects("bsdf")) nested.push_back(materials_.build(bsdf));
+    for (const XmlElement& bsdf : properties_.objects("bsdf")) {
+      const MitsubaMaterials::Built& built = materials_.build(bsdf);
+      nested.push_back(built.material);
+      nested_kinds_ += " " + built.kind;
+    }
     return nested;
   }
   [[noreturn]] void fail(std::string_view name, const std::string& message) const override {
     properties_.fail(name, message);
   }
+  const std::string& nested_kinds() const { return nested_kinds_; }
 
  private:
   MitsubaProperties& properties_;
   MitsubaMaterials& materials_;
+  std::string nested_kinds_;  // each after a blank
 };
+
+Material grey_diffuse(std::string name) {
+  return {.name = std::move(name), .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false};
+}
 
 }  // namespace
 
-const Material& MitsubaMaterials::build(const XmlElement& bsdf) {
+const MitsubaMaterials::Built& MitsubaMaterials::build(const XmlElement& bsdf) {
   if (const auto found = built_.find(bsdf.node); found != built_.end()) return found->second;
   if (!in_progress_.insert(bsdf.node).second) document_.fail(bsdf, "this bsdf contains itself");
   if (in_progress_.size() > k_max_depth)
     document_.fail(bsdf, fmt::format("bsdfs are nested more than {} deep", k_max_depth));
-  Material material = make(bsdf);
+  Built built = make(bsdf);
   in_progress_.erase(bsdf.node);
-  return built_.emplace(bsdf.node, std::move(material)).first->second;
+  return built_.emplace(bsdf.node, std::move(built)).first->second;
 }
 
-Material MitsubaMaterials::make(const XmlElement& bsdf) {
+MitsubaMaterials::Built MitsubaMaterials::make(const XmlElement& bsdf) {
   MitsubaProperties properties(document_, bsdf);
   const auto registry = bsdf_registry();
   const auto entry = std::find_if(registry.begin(), registry.end(),
@@ -62,14 +72,14 @@ Material MitsubaMaterials::make(const XmlElement& bsdf) {
     for (const BsdfEntry& candidate : registry) names.emplace_back(candidate.name);
     document_.unknown(bsdf,
                       fmt::format("unknown bsdf \"{}\"{}", properties.plugin(), suggestion(properties.plugin(), names)),
-                      "type");
-    return {.name = properties.id(), .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false};
+                      "type", "diffuse 0.5 takes its place");
+    return {grey_diffuse(properties.id()), "unknown"};
   }
   MaterialPropertyReader reader(properties, *this);
   Material material = entry->make(reader);
   properties.finish();
   material.name = properties.id();
-  return material;
+  return {std::move(material), properties.plugin() + reader.nested_kinds()};
 }
 
 std::uint32_t MitsubaMaterials::index(const XmlElement& bsdf) {
@@ -78,13 +88,13 @@ std::uint32_t MitsubaMaterials::index(const XmlElement& bsdf) {
 }
 
 std::uint32_t MitsubaMaterials::default_index() {
-  if (!default_index_)
-    default_index_ = add({.name = "default", .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false});
+  if (!default_index_) default_index_ = add({grey_diffuse("default"), "diffuse"});
   return *default_index_;
 }
 
-std::uint32_t MitsubaMaterials::add(Material material) {
-  materials_.push_back(std::move(material));
+std::uint32_t MitsubaMaterials::add(Built built) {
+  materials_.push_back(std::move(built.material));
+  kinds_.push_back(std::move(built.kind));
   return static_cast<std::uint32_t>(materials_.size() - 1);
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,24 +18,30 @@ class MitsubaMaterials {
  public:
   explicit MitsubaMaterials(MitsubaDocument& document) : document_(document) {}
 
+  struct Built {
+    Material material;
+    std::string kind;  ///< its plug-ins, outermost first: "twosided diffuse"
+  };
   /// Throws Error (input) where a bsdf is unknown or wrong, or contains itself.
-  const Material& build(const XmlElement& bsdf);
+  const Built& build(const XmlElement& bsdf);
   /// Index into the scene's materials.
   std::uint32_t index(const XmlElement& bsdf);
   /// Of what a shape without a bsdf is made: diffuse, reflectance 0.5.
   std::uint32_t default_index();
-  /// All materials that have an index.
-  std::vector<Material> take() { return std::move(materials_); }
+  /// All materials that have an index, and their kinds.
+  std::vector<Material> take_materials() { return std::move(materials_); }
+  std::vector<std::string> take_kinds() { return std::move(kinds_); }
 
  private:
-  Material make(const XmlElement& bsdf);
-  std::uint32_t add(Material material);
+  Built make(const XmlElement& bsdf);
+  std::uint32_t add(Built built);
 
   MitsubaDocument& document_;
-  std::map<pugi::xml_node, Material> built_;
+  std::map<pugi::xml_node, Built> built_;
   std::set<pugi::xml_node> in_progress_;
   std::map<pugi::xml_node, std::uint32_t> indices_;
   std::vector<Material> materials_;
+  std::vector<std::string> kinds_;
   std::optional<std::uint32_t> default_index_;
 };
 

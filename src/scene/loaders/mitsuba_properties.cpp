@@ -39,8 +39,7 @@ void MitsubaProperties::add(const XmlElement& child) {
     const std::string id = document_.required_attribute(child, "id");
     entry.target = document_.find(id);
     if (!entry.target.node)
-      document_.fail(child, fmt::format("reference to an unknown id \"{}\"{}", id, suggestion(id, document_.ids())),
-                     "id");
+      document_.fail(child, fmt::format("reference to an unknown id \"{}\"{}", id, document_.id_hint(id)), "id");
     entry.type = entry.target.node.name();
   } else if (!contains(k_property_tags, entry.type) && !contains(k_object_tags, entry.type)) {
     document_.unknown(child,

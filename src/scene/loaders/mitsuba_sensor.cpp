@@ -54,8 +54,8 @@ Resolution read_film(MitsubaDocument& document, const XmlElement& element) {
         "burn", "high_quality_edges", "attach_log", "sample_border", "compensate"})
     film.ignore(name);
   for (const XmlElement& filter : film.objects("rfilter"))
-    document.note(filter, fmt::format("reconstruction filter \"{}\" has no effect here: pixels are averaged (box)",
-                                      document.attribute(filter, "type")));
+    if (const std::string type = document.attribute(filter, "type"); type != "box")
+      document.note(filter, fmt::format("reconstruction filter \"{}\" has no effect: pixels are averaged (box)", type));
   film.finish();
   return size;
 }

@@ -43,8 +43,9 @@ class Cursor {
   }
   float number() {
     skip_blanks();
+    const Cursor begin = *this;
     float value = 0;
-    if (!read(value) || !std::isfinite(value)) fail("a finite number is needed here");
+    if (!read(value) || !std::isfinite(value)) begin.fail("a finite number is needed here");
     return value;
   }
   bool try_integer(long long& value) { return read(value); }

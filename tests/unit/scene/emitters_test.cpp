@@ -132,19 +132,25 @@ TEST(Emitters, SampleDirectFollowsPdfDirectOverSolidAngle) {
 }
 
 TEST(Emitters, SampleAndPdfAgreeAtTheSamePoint) {
-  const Scene scene = three_lamps();
+  SceneDescription description = test::describe({});
+  add_lamp(description, test::block({0, 0, 1.2f}, {0.2f, 0.3f, 0.4f}, 30), Rgb(1));  // triangles of all directions
+  add_lamp(description, test::parallelogram({1, 1, -1}, {0, -1, 0}, {0.3f, 0, -1}), Rgb(20, 4, 1));
+  const Scene scene(std::move(description));
+  int compared = 0;
   Random random(4);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
     const Point3 reference = Point3() + 0.5f * square_to_sphere(random.get2());
     const double u_select = random.uniform();
     const auto sample = scene.emitters().sample_direct(reference, u_select, random.get2());
     if (!sample) continue;
     const auto hit = scene.intersect({reference, sample->wi});
     if (!hit || distance(hit->position, sample->position) > 1e-4f) continue;  // another lamp stands before it
+    ++compared;
     EXPECT_NEAR(scene.emitters().pdf_direct(reference, *hit) / sample->pdf_solid_angle, 1, 2e-4);
     EXPECT_EQ(scene.emitters().radiance(*hit, -sample->wi), sample->radiance);
     EXPECT_FALSE(scene.occluded(segment(reference, sample->position)));
   }
+  EXPECT_GT(compared, 300);
 }
 
 TEST(Emitters, EmitOnTheSideOfTheNormalOnly) {

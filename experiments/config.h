@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "experiments/method_plan.h"
+#include "experiments/path_text.h"
+#include "experiments/problems.h"
+
+namespace gradslc {
+
+struct ConfigOptions {
+  std::vector<std::string> overrides;  ///< as config_override.h reads them, applied in order
+  Environment environment = process_environment();
+};
+
+/// Reads an experiment's config (docs: README, "Configs"). Paths in it are relative to its folder. Throws Error (input)
+/// where the file cannot be read, is not JSON, or an override leads nowhere. Everything that is wrong with the content
+/// goes to `problems`; nullopt if anything is.
+std::optional<Experiment> load_experiment(const std::filesystem::path& file, const ConfigOptions& options,
+                                          const Registries& registries, Problems& problems);
+
+}  // namespace gradslc

@@ -1,0 +1,212 @@
+#include "integrators/integrator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "core/parallel.h"
+#include "integrators/pass_schedule.h"
+#include "support/render/method.h"
+#include "support/render/scenes.h"
+
+namespace gradslc {
+namespace {
+
+Film render(const Method& method, const Scene& scene, const RenderSettings& settings, std::uint32_t passes) {
+  const auto integrator = method.make();
+  integrator->prepare(scene, settings);
+  Film film(scene.camera().resolution(), {.gradients = integrator->traits().gradients, .parts = true});
+  for (std::uint32_t pass = 0; pass < passes; ++pass) integrator->render_pass(pass, film);
+  return film;
+}
+
+bool same_bits(const MomentImage& a, const MomentImage& b) {
+  const auto& x = a.accumulators();
+  const auto& y = b.accumulators();
+  return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+}
+
+const std::vector<Method>& every_method() {
+  static const std::vector<Method> k_methods = {
+      {"spt", "spt", {}},
+      {"vpl", "vpl", {{"vpl/light_paths", 20.0}}},
+      {"vpl power", "vpl", {{"vpl/light_paths", 100.0}, {"selection", "power"}}},
+      {"slc", "slc", {{"vpl/light_paths", 300.0}}},
+      {"slc, sets of 2", "slc", {{"vpl/light_paths", 300.0}, {"vpl/passes_per_set", 2.0}}},
+      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
+      {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}}},
+      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}}},
+  };
+  return k_methods;
+}
+
+TEST(Integrators, EveryRegisteredOneIsTested) {
+  for (const IntegratorEntry& entry : integrator_registry()) {
+    bool found = false;
+    for (const Method& method : every_method()) found |= method.integrator == entry.name;
+    EXPECT_TRUE(found) << entry.name;
+  }
+}
+
+TEST(Integrators, SameBitsForAnyNumberOfThreads) {
+  const Scene scene = test_box({33, 17}, {.mirror = true});
+  const int threads_before = thread_count();
+  for (const Method& method : every_method()) {
+    set_thread_count(1);
+    const Film one = render(method, scene, {.max_depth = 5}, 3);
+    for (const int threads : {2, 7}) {
+      set_thread_count(threads);
+      const Film many = render(method, scene, {.max_depth = 5}, 3);
+      for (const int half : {0, 1}) {
+        EXPECT_TRUE(same_bits(one.half(half).primal, many.half(half).primal)) << method.label;
+        EXPECT_TRUE(same_bits(one.half(half).dx, many.half(half).dx)) << method.label;
+        EXPECT_TRUE(same_bits(one.half(half).dy, many.half(half).dy)) << method.label;
+        EXPECT_EQ(one.half(half).part_sums, many.half(half).part_sums) << method.label;
+      }
+    }
+  }
+  set_thread_count(threads_before);
+}
+
+TEST(Integrators, EveryPixelGetsOneSampleAPassAndPartsSumToTheImage) {
+  const Scene scene = test_box({20, 12}, {.mirror = true});
+  for (const Method& method : every_method()) {
+    const Film film = render(method, scene, {.max_depth = 5}, 3);
+    const RgbImage primal = film.primal();
+    RgbImage sum(primal.resolution());
+    for (int i = 0; i < k_part_count; ++i) {
+      const RgbImage part = film.part(static_cast<Part>(i));
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += part[k];
+    }
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      const Pixel pixel = primal.resolution().pixel(k);
+      EXPECT_EQ(film.half(0).primal.count(pixel) + film.half(1).primal.count(pixel), 3u) << method.label;
+      EXPECT_NEAR(luminance(sum[k]), luminance(primal[k]), 1e-5f * (1 + luminance(primal[k]))) << method.label;
+    }
+  }
+}
+
+TEST(Integrators, SeedsAndHalvesDiffer) {
+  const Scene scene = test_box({8, 8});
+  for (const Method& method : every_method()) {
+    const Film a = render(method, scene, {.seed = 1, .max_depth = 4}, 2);
+    const Film b = render(method, scene, {.seed = 2, .max_depth = 4}, 2);
+    EXPECT_FALSE(same_bits(a.half(0).primal, b.half(0).primal)) << method.label;
+    EXPECT_FALSE(same_bits(a.half(0).primal, a.half(1).primal)) << method.label;
+  }
+}
+
+TEST(Integrators, FullCutIsTheSumOfAllVpls) {
+  const Scene scene = test_box({16, 16}, {.mirror = true});
+  const Film all = render({"", "vpl", {{"vpl/light_paths", 30.0}}}, scene, {.max_depth = 5}, 1);
+  for (const Method& method :
+       {Method{"slc", "slc", {{"vpl/light_paths", 30.0}, {"cut_size", 1000.0}}}}) {
+    const Film cut = render(method, scene, {.max_depth = 5}, 1);
+    const RgbImage a = all.primal(), b = cut.primal();
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(luminance(a[i]), luminance(b[i]), 2e-5f * (1 + luminance(a[i])));
+  }
+}
+
+// Where every pixel sees the same radiance, differences are 0 to the last column and row.
+TEST(Integrators, ConstantSceneToTheLastPixel) {
+  const Scene scene = closed_furnace(Rgb(0.0f), {13, 7});
+  for (const Method& method : every_method()) {
+    const Film film = render(method, scene, {.max_depth = 4}, 12);
+    const RgbImage primal = film.primal();
+    for (const Rgb value : primal) EXPECT_EQ(value, Rgb(1)) << method.label;
+    if (!film.layers().gradients) continue;
+    for (const int half : {0, 1})
+      for (int y = 0; y < 7; ++y)
+        for (int x = 0; x < 13; ++x) {
+          const Pixel p{x, y};
+          EXPECT_EQ(film.half(half).dx.mean(p), Rgb());
+          EXPECT_EQ(film.half(half).dy.mean(p), Rgb());
+          // Pairs that leave the image are not recorded, the others are.
+          EXPECT_EQ(film.half(half).dx.count(p) > 0, x + 1 < 13) << method.label << " " << x << "," << y;
+          EXPECT_EQ(film.half(half).dy.count(p) > 0, y + 1 < 7) << method.label << " " << x << "," << y;
+        }
+  }
+}
+
+// In one pass a pair's difference is that of two samples of one group: E[dx] = E[I(x+1)] - E[I(x)] is tested with the
+// statistical tests; here, that no pair depends on what was hit: counts are those of the partition alone.
+TEST(Integrators, RecordedPairsDoNotDependOnTheScene) {
+  const Method method{"", "gradslc", {{"vpl/light_paths", 50.0}, {"shift", "random_replay"}}};
+  const Film box = render(method, test_box({21, 11}, {.mirror = true}), {.max_depth = 4}, 8);
+  const Film furnace = render(method, closed_furnace(Rgb(0.5f), {21, 11}), {.max_depth = 4}, 8);
+  for (const int half : {0, 1})
+    for (std::size_t i = 0; i < box.resolution().pixels(); ++i) {
+      const Pixel p = box.resolution().pixel(i);
+      EXPECT_EQ(box.half(half).dx.count(p), furnace.half(half).dx.count(p));
+      EXPECT_EQ(box.half(half).dy.count(p), furnace.half(half).dy.count(p));
+    }
+}
+
+TEST(Integrators, SceneWithoutLightIsBlack) {
+  SceneDescription description;
+  description.materials = {diffuse_material(Rgb(0.5f))};
+  description.meshes = {inward_box({-1, -1, -1}, {1, 1, 1}, 0)};
+  description.camera = camera_at({6, 5}, {0, 0, 0}, {0, 0, 1}, 60);
+  const Scene scene(std::move(description));
+  for (const Method& method : every_method())
+    for (const Rgb value : render(method, scene, {.max_depth = 5}, 2).primal()) EXPECT_EQ(value, Rgb()) << method.label;
+}
+
+TEST(Integrators, ShallowDepthsOfEveryMethod) {
+  const Scene scene = test_box({8, 8}, {.mirror = true});
+  for (const Method& method : every_method())
+    for (const int max_depth : {1, 2, 3}) {
+      const Film film = render(method, scene, {.max_depth = max_depth}, 2);
+      EXPECT_EQ(film.invalid_samples(), 0u);
+      if (max_depth > 2) continue;
+      for (const Rgb value : film.part(Part::vpl)) EXPECT_EQ(value, Rgb()) << method.label << " " << max_depth;
+    }
+}
+
+TEST(Integrators, TraitsSayWhatIsBiasedOrTruncated) {
+  const Scene scene = test_box({4, 4});
+  const auto traits = [&](std::map<std::string, ParameterValue> parameters) {
+    parameters["vpl/light_paths"] = 20.0;
+    const auto integrator = Method{"", "slc", parameters}.make();
+    integrator->prepare(scene, {.max_depth = 5});
+    return integrator->traits();
+  };
+  EXPECT_FALSE(traits({}).biased);
+  EXPECT_FALSE(traits({}).truncated);
+  EXPECT_FALSE(traits({}).one_set);
+  EXPECT_TRUE(traits({{"vpl/bounding", "clamp"}}).biased);
+  EXPECT_TRUE(traits({{"vpl/max_bounces", 2.0}}).truncated);
+  EXPECT_FALSE(traits({{"vpl/max_bounces", 3.0}}).truncated);
+  EXPECT_TRUE(traits({{"vpl/passes_per_set", 0.0}}).one_set);
+}
+
+// The same scene in millimetres and in kilometres gives the same image (DESIGN 5).
+TEST(Integrators, ImageDoesNotDependOnTheUnitOfLength) {
+  for (const Method& method : every_method()) {
+    const Film metres = render(method, test_box({12, 12}, {.mirror = true}), {.max_depth = 4}, 2);
+    const Film scaled = render(method, test_box({12, 12}, {.mirror = true, .scale = 1024}), {.max_depth = 4}, 2);
+    const RgbImage a = metres.primal(), b = scaled.primal();
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(luminance(a[i]), luminance(b[i]), 1e-3f * (0.1f + luminance(a[i]))) << method.label << " " << i;
+  }
+}
+
+TEST(PassSchedule, HalvesAlternateBySet) {
+  for (const std::uint32_t per_set : {1u, 3u}) {
+    std::uint32_t samples[2] = {};
+    for (std::uint32_t pass = 0; pass < 24; ++pass) {
+      const PassSlot slot = pass_slot(pass, per_set);
+      EXPECT_EQ(slot.half, static_cast<int>(pass / per_set % 2));
+      EXPECT_EQ(slot.sample, samples[slot.half]++) << "samples of a half are counted without gaps";
+      EXPECT_EQ(slot.set, slot.sample / per_set);
+      EXPECT_EQ(slot.closes_set, pass % per_set == per_set - 1);
+    }
+  }
+  EXPECT_EQ(pass_slot(7, 0).set, 0u);
+  EXPECT_EQ(pass_slot(7, 0).half, 1);
+  EXPECT_EQ(pass_slot(7, 0).sample, 3u);
+}
+
+}  // namespace
+}  // namespace gradslc

@@ -1,0 +1,496 @@
+// The Mitsuba scene loader: what scenes mean in both dialects, and what is said of those that are wrong.
+
+#include "scene/loaders/loader.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <variant>
+
+#include "core/error.h"
+#include "scene/summary.h"
+
+namespace gradslc {
+namespace {
+
+constexpr std::string_view k_sensor = R"(<sensor type="perspective"><float name="fov" value="40"/></sensor>)";
+
+SceneDescription load(std::string_view body, const LoadOptions& options = {}, std::string_view version = "3.0.0") {
+  return load_scene_text(fmt::format("<scene version=\"{}\">\n{}\n{}</scene>", version, body, k_sensor), "test.xml",
+                         options);
+}
+
+SceneDescription load_legacy(std::string_view body) { return load(body, {}, "0.6.0"); }
+
+/// The whole text of the error that loading raises. `body` begins on line 2.
+std::string refusal(std::string_view body, const LoadOptions& options = {}, std::string_view version = "3.0.0") {
+  try {
+    load(body, options, version);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::input);
+    const std::string text = error.what();
+    return text.substr(0, text.find('\n'));
+  }
+  return "accepted";
+}
+
+Rgb reflectance(const Material& material) { return std::get<DiffuseMaterial>(material.kind).reflectance.eval({}); }
+
+Rgb rectangle_reflectance(std::string_view colour, std::string_view version = "3.0.0") {
+  const auto scene =
+      load(fmt::format(R"(<shape type="rectangle"><bsdf type="diffuse">{}</bsdf></shape>)", colour), {}, version);
+  return reflectance(scene.materials.at(scene.meshes.at(0).material));
+}
+
+/// Files in a folder of their own, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder()
+      : path_(std::filesystem::temp_directory_path() /
+              fmt::format("gradslc-loader-{}", testing::UnitTest::GetInstance()->random_seed())) {
+    path_ += testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(path_ / "parts");
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string write(const std::string& name, std::string_view content) const {
+    std::ofstream(path_ / name) << content;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// --- what scenes mean
+
+TEST(Loader, BothDialectsOfTheSharedCornellBoxGiveTheSameScene) {
+  const std::filesystem::path folder = std::filesystem::path(GRADSLC_SHARED_DIR) / "scenes/cornell-box";
+  if (!std::filesystem::exists(folder))
+    GTEST_SKIP() << "the shared folder with the Cornell box is not here: " << folder;
+  const SceneDescription a = load_scene((folder / "scene_v0.6.xml").string());
+  const SceneDescription b = load_scene((folder / "scene_v3.xml").string());
+  ASSERT_EQ(a.meshes.size(), 8u);
+  ASSERT_EQ(b.meshes.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(a.meshes[i].positions, b.meshes[i].positions);
+    EXPECT_EQ(a.meshes[i].triangles, b.meshes[i].triangles);
+    EXPECT_EQ(a.meshes[i].uvs, b.meshes[i].uvs);
+    EXPECT_EQ(a.meshes[i].flip_normals, b.meshes[i].flip_normals);
+    EXPECT_EQ(a.meshes[i].area_light, b.meshes[i].area_light);
+    const Material &ma = a.materials[a.meshes[i].material], &mb = b.materials[b.meshes[i].material];
+    EXPECT_EQ(reflectance(ma), reflectance(mb));
+    EXPECT_TRUE(ma.two_sided && mb.two_sided);
+  }
+  EXPECT_EQ(a.area_lights.at(0).radiance, Rgb(17, 12, 4));
+  EXPECT_EQ(b.area_lights.at(0).radiance, Rgb(17, 12, 4));
+  for (const Vec2 film : {Vec2{0, 0}, Vec2{1024, 300}})
+    EXPECT_EQ(a.camera.generate_ray(film).direction, b.camera.generate_ray(film).direction);
+  EXPECT_EQ(a.camera.resolution(), (Resolution{1024, 1024}));
+  const Scene scene(a);
+  EXPECT_EQ(scene.triangle_count(), 36u);
+  EXPECT_NEAR(scene.emitters().power().r, 17 * k_pi * 4 * 0.235 * 0.19, 1e-4);
+}
+
+TEST(Loader, ReadsOurOwnCornellBox) {
+  const Scene scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml",
+                               {.width = 32, .height = {}, .definitions = {}, .permissive = false}));
+  EXPECT_EQ(scene.triangle_count(), 36u);
+  EXPECT_EQ(scene.camera().resolution(), (Resolution{32, 32}));
+  EXPECT_NEAR(scene.bounds().upper.x, 0.5528f, 1e-6f);
+  EXPECT_NEAR(scene.bounds().upper.y, 0.5488f, 1e-6f);
+  EXPECT_NEAR(scene.bounds().upper.z, 0.5592f, 1e-6f);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) {
+      const Ray ray = scene.camera().generate_ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+      const auto hit = scene.intersect(ray);
+      if (!hit) continue;  // the margin around the opening
+      EXPECT_LT(dot(hit->geometric_normal, ray.direction), 0) << "the inside of " << scene.meshes()[hit->mesh].name;
+    }
+  const auto name_at = [&](float x, float y) {
+    return scene.meshes()[scene.intersect(scene.camera().generate_ray({x, y}))->mesh].name;
+  };
+  EXPECT_EQ(name_at(3, 16), "left_wall");
+  EXPECT_EQ(name_at(29, 16), "right_wall");
+  EXPECT_EQ(name_at(16, 2), "ceiling");
+  EXPECT_EQ(name_at(16, 30), "floor");
+  EXPECT_EQ(name_at(12, 16), "tall_block");
+  EXPECT_EQ(name_at(20, 24), "short_block");
+}
+
+TEST(Loader, SummarisesTheScene) {
+  const SceneSummary summary = summarise(Scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml")));
+  EXPECT_EQ(summary.triangles, 36u);
+  EXPECT_EQ(summary.meshes, 8u);
+  EXPECT_EQ(summary.materials, (std::map<std::string, int>{{"diffuse", 1}, {"twosided diffuse", 3}}));
+  EXPECT_EQ(summary.emitters, 2u);
+  EXPECT_NEAR(summary.emitter_power.g, 12 * k_pi * 0.13 * 0.105, 1e-5);
+  EXPECT_EQ(summary.resolution, (Resolution{256, 256}));
+  EXPECT_EQ(summary.notes.size(), 3u);
+  EXPECT_GT(summary.memory_bytes, 36u * 12);
+}
+
+TEST(Loader, AShapeWithoutBsdfIsHalfGrey) {
+  const SceneDescription scene = load(R"(<shape type="rectangle"/><shape type="cube" id="box"/>)");
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.materials.size(), 1u);
+  EXPECT_EQ(reflectance(scene.materials[scene.meshes[0].material]), Rgb(0.5f));
+  EXPECT_EQ(scene.meshes[0].name, "rectangle at line 2");
+  EXPECT_EQ(scene.meshes[1].name, "box");
+}
+
+TEST(Loader, ReadsColoursInAllNotations) {
+  EXPECT_EQ(rectangle_reflectance(R"(<rgb name="reflectance" value="0.1, 0.2, 0.3"/>)"), Rgb(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(rectangle_reflectance("<rgb name=\"reflectance\" value=\" 0.1 \t0.2\n.3\"/>"), Rgb(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(rectangle_reflectance(R"(<rgb name="reflectance" value="0.25"/>)"), Rgb(0.25f));
+  EXPECT_EQ(rectangle_reflectance(R"(<float name="reflectance" value="0.25"/>)"), Rgb(0.25f));
+  EXPECT_EQ(rectangle_reflectance(R"(<spectrum name="reflectance" value="0.25"/>)", "0.6.0"), Rgb(0.25f));
+  EXPECT_EQ(rectangle_reflectance(R"(<spectrum name="reflectance" value="0.1 0.2 0.3"/>)", "0.6.0"),
+            Rgb(0.1f, 0.2f, 0.3f));
+  const Rgb hex = rectangle_reflectance(R"(<rgb name="reflectance" value="#ff8000"/>)");
+  EXPECT_EQ(hex.r, 1);
+  EXPECT_NEAR(hex.g, 0.215861f, 1e-6f);
+  EXPECT_EQ(hex.b, 0);
+  EXPECT_NEAR(rectangle_reflectance(R"(<srgb name="reflectance" value="0.5"/>)", "0.6.0").r, 0.214041f, 1e-6f);
+}
+
+TEST(Loader, AppliesTransformsInTheOrderOfTheFile) {
+  const auto first_corner = [](std::string_view steps) {
+    return load(fmt::format(R"(<shape type="rectangle"><transform name="to_world">{}</transform></shape>)", steps))
+        .meshes[0]
+        .positions[2];  // (1, 1, 0)
+  };
+  EXPECT_EQ(first_corner(R"(<translate x="1" y="2" z="3"/>)"), (Point3{2, 3, 3}));
+  EXPECT_EQ(first_corner(R"(<translate value="1, 2, 3"/><scale value="2"/>)"), (Point3{4, 6, 6}));
+  EXPECT_EQ(first_corner(R"(<scale x="2"/><translate z="3"/>)"), (Point3{2, 1, 3}));
+  EXPECT_EQ(first_corner(R"(<matrix value="0 1 0 5  1 0 0 6  0 0 1 7  0 0 0 1"/>)"), (Point3{6, 7, 7}));
+  EXPECT_EQ(first_corner(R"(<matrix value="2 0 0  0 3 0  0 0 1"/>)"), (Point3{2, 3, 0}));
+  const Point3 turned = first_corner(R"(<rotate z="2" angle="90"/>)");  // x -> y, y -> -x
+  EXPECT_NEAR(turned.x, -1, 1e-6f);
+  EXPECT_NEAR(turned.y, 1, 1e-6f);
+  const Point3 looking = first_corner(R"(<lookat origin="1 2 3" target="1 2 9" up="0 1 0"/>)");
+  EXPECT_EQ(looking, (Point3{2, 3, 3}));
+}
+
+Normal3 hit_normal(const Scene& scene, Vec3 direction) {
+  const auto hit = scene.intersect({Point3() - 10 * direction, direction});
+  EXPECT_TRUE(hit);
+  return hit ? hit->geometric_normal : Normal3();
+}
+
+// Mirroring turns the winding round, but normals go by the inverse transpose and keep their side.
+TEST(Loader, MirroredShapesKeepTheSideOfTheirNormals) {
+  for (const char* scale : {"1, 1, 1", "-1, 1, 1", "-2, -3, 1", "1, 2, -1", "-1, -1, -1"})
+    for (const bool flip : {false, true}) {
+      const std::string body = fmt::format(
+          R"(<boolean name="flip_normals" value="{}"/><transform name="to_world"><scale value="{}"/></transform></shape>)",
+          flip, scale);
+      const Scene cube(load(R"(<shape type="cube">)" + body));
+      for (const Vec3 d : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}})
+        EXPECT_NEAR(dot(hit_normal(cube, d), d), flip ? 1 : -1, 1e-6f) << scale;
+      const Scene rectangle(load(R"(<shape type="rectangle">)" + body));
+      const float up = (std::string_view(scale).ends_with("-1") ? -1.0f : 1.0f) * (flip ? -1.0f : 1.0f);
+      EXPECT_NEAR(hit_normal(rectangle, {0, 0, -1}).z, up, 1e-6f) << scale;
+    }
+}
+
+TEST(Loader, TheRectangleHasMitsubasTextureCoordinates) {
+  const Scene scene(load(R"(<shape type="rectangle"/>)"));
+  const auto hit = scene.intersect({{-0.5f, 0.8f, 1}, {0, 0, -1}});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->uv.x, 0.25f, 1e-6f);
+  EXPECT_NEAR(hit->uv.y, 0.9f, 1e-6f);
+  EXPECT_EQ(hit->shading.s, (Vec3{1, 0, 0}));
+}
+
+// Corners of the six faces as Mitsuba's cube has them: position of uv (0, 1) and of uv (1, 0).
+TEST(Loader, TheCubeHasMitsubasTextureCoordinates) {
+  const TriangleMesh cube = load(R"(<shape type="cube"/>)").meshes[0];
+  ASSERT_EQ(cube.positions.size(), 24u);
+  ASSERT_EQ(cube.triangles.size(), 12u);
+  constexpr Point3 k_first[] = {{1, -1, -1}, {1, 1, -1}, {1, -1, -1}, {1, -1, 1}, {-1, -1, 1}, {1, 1, -1}};
+  constexpr Point3 k_third[] = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, -1}};
+  for (std::size_t face = 0; face < 6; ++face) {
+    EXPECT_EQ(cube.positions[4 * face], k_first[face]);
+    EXPECT_EQ(cube.uvs[4 * face], (Vec2{0, 1}));
+    EXPECT_EQ(cube.positions[4 * face + 2], k_third[face]);
+    EXPECT_EQ(cube.uvs[4 * face + 2], (Vec2{1, 0}));
+  }
+}
+
+TEST(Loader, ReferencesReachNestedIdsAndAliasesAndWhatComesLater) {
+  const SceneDescription scene = load(R"(
+    <shape type="rectangle"><ref id="inner"/></shape>
+    <shape type="rectangle"><ref id="other"/></shape>
+    <bsdf type="twosided" id="outer">
+      <bsdf type="diffuse" id="inner"><rgb name="reflectance" value="0.2"/></bsdf>
+    </bsdf>
+    <alias id="outer" as="other"/>
+    <shape type="rectangle"><ref id="outer"/></shape>)");
+  const auto material = [&](std::size_t mesh) { return scene.materials[scene.meshes[mesh].material]; };
+  EXPECT_FALSE(material(0).two_sided);
+  EXPECT_EQ(reflectance(material(0)), Rgb(0.2f));
+  EXPECT_TRUE(material(1).two_sided);
+  EXPECT_EQ(scene.meshes[1].material, scene.meshes[2].material);
+  EXPECT_EQ(scene.materials.size(), 2u);
+}
+
+TEST(Loader, SubstitutesParameters) {
+  constexpr std::string_view k_body = R"(
+    <default name="c" value="0.25"/><default name="c" value="0.75"/><default name="co" value="0.5"/>
+    <default name="kind" value="diffuse"/>
+    <shape type="rectangle"><bsdf type="$kind"><rgb name="reflectance" value="$c $co $c"/></bsdf></shape>)";
+  EXPECT_EQ(reflectance(load(k_body).materials[0]), Rgb(0.25f, 0.5f, 0.25f));
+  LoadOptions options;
+  options.definitions = {{"c", "0.125"}};
+  EXPECT_EQ(reflectance(load(k_body, options).materials[0]), Rgb(0.125f, 0.5f, 0.125f));
+}
+
+TEST(Loader, IncludesFilesRelativeToTheIncludingOne) {
+  const TemporaryFolder folder;
+  folder.write(
+      "parts/leaf.xml",
+      R"(<scene version="0.6.0"><bsdf type="diffuse" id="leaf"><spectrum name="reflectance" value="0.1, 0.2, 0.3"/></bsdf></scene>)");
+  folder.write("parts/middle.xml", R"(<scene version="3.0.0"><include filename="leaf.xml"/></scene>)");
+  const std::string file =
+      folder.write("scene.xml", fmt::format(R"(<scene version="3.0.0"><include filename="parts/middle.xml"/>
+    <shape type="rectangle"><ref id="leaf"/></shape>{}</scene>)",
+                                            k_sensor));
+  EXPECT_EQ(reflectance(load_scene(file).materials[0]), Rgb(0.1f, 0.2f, 0.3f));
+}
+
+TEST(Loader, ReadsObjFilesBesideTheScene) {
+  const TemporaryFolder folder;
+  folder.write("parts/triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string file = folder.write("scene.xml", fmt::format(R"(<scene version="3.0.0">
+    <shape type="obj"><string name="filename" value="parts/triangle.obj"/><boolean name="flip_normals" value="true"/>
+      <transform name="to_world"><translate z="5"/></transform></shape>{}</scene>)",
+                                                                 k_sensor));
+  const TriangleMesh mesh = load_scene(file).meshes.at(0);
+  EXPECT_EQ(mesh.positions[1], (Point3{1, 0, 5}));
+  EXPECT_TRUE(mesh.flip_normals);
+}
+
+TEST(Loader, NotesWhatHasNoEffectOnceEach) {
+  const auto scene = load_scene_text(R"(<scene version="3.0.0">
+<integrator type="path"/>
+<sensor type="perspective"><float name="fov" value="40"/><float name="near_clip" value="0.1"/>
+<sampler type="sobol"/><film type="hdrfilm"><rfilter type="box"/></film></sensor></scene>)",
+                                     "s.xml");
+  ASSERT_EQ(scene.notes.size(), 3u);
+  EXPECT_EQ(scene.notes[0], "s.xml:2: integrator \"path\" has no effect: the experiment chooses the method");
+  EXPECT_EQ(scene.notes[1], "s.xml:3: sensor \"perspective\": \"near_clip\" has no effect here");
+  EXPECT_EQ(scene.notes[2].substr(0, 38), "s.xml:4: sampler \"sobol\" has no effect");
+}
+
+// --- what is said of scenes that are wrong: file, line, column, element, and what would be right
+
+TEST(LoaderErrors, PointAtTheAttributeAndShowTheLine) {
+  try {
+    load("<shape type=\"rectangle\">\n\t<bsdf type=\"difuse\"/></shape>");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where().file, "test.xml");
+    EXPECT_EQ(error.where().line, 3);
+    EXPECT_EQ(error.where().column, 8);
+    EXPECT_EQ(error.where().pointer, "/scene/shape/bsdf");
+    EXPECT_EQ(error.message(), "unknown bsdf \"difuse\"; did you mean \"diffuse\"?");
+    EXPECT_NE(std::string(error.what()).find("<bsdf type=\"difuse\"/>"), std::string::npos);
+  }
+}
+
+struct WrongScene {
+  const char* body;
+  const char* error;
+};
+
+TEST(LoaderErrors, NameWhatIsNotKnown) {
+  const WrongScene cases[] = {
+      {R"(<shape type="rectangel"/>)",
+       "test.xml:2:8: error: /scene/shape: unknown shape \"rectangel\"; did you mean \"rectangle\"?"},
+      {R"(<shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectence" value="1"/></bsdf></shape>)",
+       "test.xml:2:51: error: /scene/shape/bsdf/rgb: bsdf \"diffuse\" has no property \"reflectence\"; did you mean "
+       "\"reflectance\"?"},
+      {R"(<shape type="rectangle"><float name="radius" value="1"/></shape>)",
+       "test.xml:2:32: error: /scene/shape/float: shape \"rectangle\" has no property \"radius\"; known: bsdf, "
+       "emitter, flip_normals, to_world"},
+      {R"(<shape type="rectangle"><transform name="toWorld"/></shape>)",
+       "test.xml:2:36: error: /scene/shape/transform: shape \"rectangle\" has no property \"toWorld\"; did you mean "
+       "\"to_world\"?"},
+      {R"(<shape type="rectangle"><sampler type="sobol"/></shape>)",
+       "test.xml:2:26: error: /scene/shape/sampler: shape \"rectangle\" has no use for a <sampler>"},
+      {R"(<shape type="rectangle"><emitter type="point"/></shape>)",
+       "test.xml:2:34: error: /scene/shape/emitter: unknown emitter \"point\" in a shape; known: area"},
+      {R"(<emitter type="sunsky"/>)", "test.xml:2:10: error: /scene/emitter: unknown emitter \"sunsky\"; known: area"},
+      {R"(<emitter type="area"/>)", "test.xml:2:2: error: /scene/emitter: an area emitter must stand inside a <shape>"},
+      {R"(<medium type="homogeneous"/>)", "test.xml:2:2: error: /scene/medium: unknown element <medium> in <scene>"},
+      {R"(<shape type="rectangle"><colour name="x"/></shape>)",
+       "test.xml:2:26: error: /scene/shape/colour: unknown element <colour> in shape \"rectangle\""},
+      {R"(<shape type="rectangle"><ref id="whyte"/></shape><bsdf type="diffuse" id="white"/>)",
+       "test.xml:2:30: error: /scene/shape/ref: reference to an unknown id \"whyte\"; did you mean \"white\"?"},
+      {R"(<alias id="nobody" as="x"/>)",
+       "test.xml:2:8: error: /scene/alias: alias of an unknown id \"nobody\"; there are no ids"},
+      {R"(<shape type="rectangle"><transform name="to_world"><shear x="1"/></transform></shape>)",
+       "test.xml:2:53: error: /scene/shape/transform/shear: unknown transform <shear>; known: translate, rotate, "
+       "scale, matrix, lookat"},
+      {R"(<include filename="no.xml"/>)",
+       "test.xml:2:10: error: /scene/include: included file \"no.xml\" does not exist"},
+      {R"(<shape type="obj"><string name="filename" value="no.obj"/></shape>)",
+       "test.xml:2:43: error: /scene/shape/string: file \"no.obj\" does not exist"},
+      {R"(<bsdf type="diffuse"><rgb name="reflectance" value="$x"/></bsdf>)",
+       "test.xml:2:46: error: /scene/bsdf/rgb: parameter \"$x\" has no value; no <default> stands before it"},
+      {R"(<default name="size" value="1"/><bsdf type="diffuse"><rgb name="reflectance" value="$sizd"/></bsdf>)",
+       "test.xml:2:78: error: /scene/bsdf/rgb: parameter \"$sizd\" has no value; did you mean \"size\"?"},
+  };
+  for (const WrongScene& wrong : cases) EXPECT_EQ(refusal(wrong.body), wrong.error);
+}
+
+TEST(LoaderErrors, SayWhatValuesShouldBe) {
+  const auto diffuse = [](const char* property) {
+    return refusal(fmt::format(R"(<bsdf type="diffuse">{}</bsdf>)", property));
+  };
+  const auto shape = [](const char* content) {
+    return refusal(fmt::format(R"(<shape type="rectangle">{}</shape>)", content));
+  };
+  const auto transform = [](const char* step) {
+    return refusal(
+        fmt::format("<shape type=\"rectangle\"><transform name=\"to_world\">\n{}</transform></shape>", step));
+  };
+  EXPECT_EQ(diffuse(R"(<string name="reflectance" value="red"/>)"),
+            "test.xml:2:49: error: /scene/bsdf/string: \"reflectance\" is given as <string>, needs an <rgb>, "
+            "<spectrum> or <float>");
+  EXPECT_EQ(
+      diffuse(R"(<rgb name="reflectance" value="1 2"/>)"),
+      "test.xml:2:46: error: /scene/bsdf/rgb: \"reflectance\" must be one or three numbers (or #rrggbb), not \"1 2\"");
+  EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value="1 2 x"/>)"),
+            "test.xml:2:46: error: /scene/bsdf/rgb: \"reflectance\" must be one or three numbers (or #rrggbb), not \"1 "
+            "2 x\"");
+  EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value="#12345g"/>)"),
+            "test.xml:2:46: error: /scene/bsdf/rgb: \"reflectance\" must be one or three numbers (or #rrggbb), not "
+            "\"#12345g\"");
+  EXPECT_EQ(diffuse(R"(<spectrum name="reflectance" value="400:1, 700:0.5"/>)"),
+            "test.xml:2:51: error: /scene/bsdf/spectrum: \"reflectance\": spectra by wavelength are not supported; "
+            "give an <rgb>");
+  EXPECT_EQ(diffuse(R"(<rgb name="reflectance"/>)"),
+            "test.xml:2:23: error: /scene/bsdf/rgb: attribute \"value\" is missing");
+  EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value=""/>)"),
+            "test.xml:2:46: error: /scene/bsdf/rgb: attribute \"value\" is empty");
+  EXPECT_EQ(diffuse(R"(<float name="reflectance" value="nan"/>)"),
+            "test.xml:2:48: error: /scene/bsdf/float: \"reflectance\" must be one number, not \"nan\"");
+  EXPECT_EQ(diffuse(R"(<rgb value="1"/>)"), "test.xml:2:23: error: /scene/bsdf/rgb: a <rgb> needs a name");
+  EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value="1"/><rgb name="reflectance" value="1"/>)"),
+            "test.xml:2:62: error: /scene/bsdf/rgb[2]: property \"reflectance\" is given twice");
+  EXPECT_EQ(shape(R"(<boolean name="flip_normals" value="yes"/>)"),
+            "test.xml:2:54: error: /scene/shape/boolean: \"flip_normals\" must be true or false, not \"yes\"");
+  EXPECT_EQ(shape(R"(<bsdf type="diffuse"/><bsdf type="diffuse"/>)"),
+            "test.xml:2:2: error: /scene/shape: a shape has one bsdf, not 2");
+  EXPECT_EQ(shape(R"(<emitter type="area"><rgb name="radiance" value="1 -1 1"/></emitter>)"),
+            "test.xml:2:67: error: /scene/shape/emitter/rgb: radiance must not be negative");
+  EXPECT_EQ(shape("text"), "test.xml:2:2: error: /scene/shape: text \"text\" between elements");
+  EXPECT_EQ(transform(R"(<matrix value="1 2 3"/>)"),
+            "test.xml:3:9: error: /scene/shape/transform/matrix: a matrix has 16 (or 9) numbers, row by row, not 3");
+  EXPECT_EQ(transform(R"(<matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2"/>)"),
+            "test.xml:3:9: error: /scene/shape/transform/matrix: the last row of a matrix must be 0 0 0 1");
+  EXPECT_EQ(transform(R"(<rotate angle="3"/>)"),
+            "test.xml:3:2: error: /scene/shape/transform/rotate: the axis of a rotation must not be zero");
+  EXPECT_EQ(transform(R"(<rotate x="1"/>)"),
+            "test.xml:3:2: error: /scene/shape/transform/rotate: attribute \"angle\" is missing");
+  EXPECT_EQ(transform(R"(<translate x="1m"/>)"),
+            "test.xml:3:12: error: /scene/shape/transform/translate: x must be a number");
+  EXPECT_EQ(transform(R"(<translate value="1 2"/>)"),
+            "test.xml:3:12: error: /scene/shape/transform/translate: value must be three numbers, not 2");
+  EXPECT_EQ(transform(R"(<lookat origin="1 2 3" target="1 2 3"/>)"),
+            "test.xml:3:2: error: /scene/shape/transform/lookat: origin, target and up do not define a direction: "
+            "target equals origin, or up is parallel to it");
+}
+
+TEST(LoaderErrors, RefuseWhatIsNoScene) {
+  const auto load_text = [](const char* text) -> std::string {
+    try {
+      load_scene_text(text, "test.xml");
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      return what.substr(0, what.find('\n'));
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(load_text("<scene version=\"3.0.0\">\n<a></b></scene>").substr(0, 45),
+            "test.xml:2:6: error: not well-formed XML: Sta");
+  EXPECT_EQ(load_text("").substr(0, 41), "test.xml:1:1: error: not well-formed XML:");
+  EXPECT_EQ(load_text("<world/>"), "test.xml:1:2: error: /world: the outermost element must be <scene>");
+  EXPECT_EQ(load_text("<scene/>"), "test.xml:1:2: error: /scene: attribute \"version\" is missing");
+  EXPECT_EQ(load_text("<scene version=\"7.0\"/>"),
+            "test.xml:1:8: error: /scene: version \"7.0\" is not supported, only 0.x, 2.x and 3.x are");
+  EXPECT_EQ(load_text("<scene version=\"3.0\"/>"), "test.xml:1:2: error: /scene: the scene has no <sensor>");
+  EXPECT_EQ(load_text("<scene version=\"3.0\">hello</scene>"),
+            "test.xml:1:2: error: /scene: text \"hello\" between elements");
+  try {
+    load_scene("no-such-file.xml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::input);
+    EXPECT_EQ(error.where().file, "no-such-file.xml");
+  }
+}
+
+TEST(LoaderErrors, RefuseIdsThatClashAndBsdfsThatContainThemselves) {
+  EXPECT_EQ(refusal("<bsdf type=\"diffuse\" id=\"a\"/>\n<shape type=\"cube\" id=\"a\"/>"),
+            "test.xml:3:20: error: /scene/shape: id \"a\" is taken already, at test.xml:2");
+  EXPECT_EQ(refusal(R"(<bsdf type="twosided" id="a"><ref id="a"/></bsdf>)"),
+            "test.xml:2:2: error: /scene/bsdf: this bsdf contains itself");
+  std::string chain;
+  for (int i = 0; i < 100; ++i)
+    chain += fmt::format("<bsdf type=\"twosided\" id=\"b{}\"><ref id=\"b{}\"/></bsdf>\n", i, i + 1);
+  EXPECT_EQ(refusal(chain + R"(<bsdf type="diffuse" id="b100"/>)"),
+            "test.xml:66:2: error: /scene/bsdf[65]: bsdfs are nested more than 64 deep");
+}
+
+TEST(LoaderErrors, RefuseIncludesWithoutEnd) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("loop.xml", R"(<scene version="3.0.0"><include filename="loop.xml"/></scene>)");
+  try {
+    load_scene(file);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.message(), "includes are nested more than 16 deep; does a file include itself?");
+  }
+}
+
+TEST(LoaderErrors, RefuseElementsNestedWithoutEnd) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<bsdf type=\"twosided\">";
+  for (int i = 0; i < 100000; ++i) deep += "</bsdf>";
+  EXPECT_NE(refusal(deep).find("elements are nested more than 64 deep"), std::string::npos);
+}
+
+TEST(LoaderErrors, RefuseDefinitionsOfNothing) {
+  LoadOptions options;
+  options.definitions = {{"spq", "3"}};
+  EXPECT_EQ(refusal(R"(<default name="spp" value="1"/>)", options),
+            "test.xml:1:2: error: /scene: the scene has no parameter \"spq\" to define; did you mean \"spp\"?");
+}
+
+TEST(LoaderPermissive, TurnsWhatIsNotRecognisedIntoNotes) {
+  LoadOptions options;
+  options.permissive = true;
+  const SceneDescription scene = load(R"(<medium type="fog"/><shape type="teapot"/><emitter type="sky"/>
+    <shape type="rectangle"><float name="radius" value="1"/><bsdf type="velvet"/></shape>)",
+                                      options);
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(reflectance(scene.materials[0]), Rgb(0.5f));
+  ASSERT_EQ(scene.notes.size(), 5u);
+  EXPECT_EQ(scene.notes[0], "test.xml:2: unknown element <medium> in <scene>; ignored");
+  EXPECT_NE(scene.notes[3].find("diffuse 0.5 takes its place"), std::string::npos);
+  EXPECT_NE(refusal(R"(<shape type="rectangle"><ref id="x"/></shape>)", options), "accepted");  // wrong is still wrong
+}
+
+TEST(SnakeCase, TranslatesTheNamesOfDialect06) {
+  const SceneDescription scene = load_legacy(
+      R"(<shape type="rectangle"><boolean name="flipNormals" value="true"/><transform name="toWorld"><translate x="1"/></transform></shape>)");
+  EXPECT_TRUE(scene.meshes[0].flip_normals);
+  EXPECT_EQ(scene.meshes[0].positions[0], (Point3{0, -1, 0}));
+}
+
+}  // namespace
+}  // namespace gradslc
