@@ -50,6 +50,10 @@ std::string in_math(const std::string& text, Markup markup) {
 }  // namespace
 
 std::string format_estimate(const Estimate& estimate, Markup markup) {
+  const bool is_count = estimate.mean == std::round(estimate.mean) && estimate.half_width == 0;
+  if (is_count && decimal_exponent(estimate.mean) <= k_largest_plain_exponent) {
+    return in_math(fmt::format("{:.0f}", estimate.mean), markup);
+  }
   return in_math(format_interval(estimate, 4, "", markup), markup);
 }
 

@@ -21,10 +21,11 @@ constexpr Colour k_palette[] = {{"#0072B2", "#56A8E0"}, {"#D55E00", "#F0803C"}, 
 constexpr std::size_t k_colours = std::size(k_palette);
 constexpr std::size_t k_markers = 4;
 
-constexpr double k_width = 760, k_height = 460;
-constexpr double k_left = 78, k_right = 160, k_top = 46, k_bottom = 60;  // margins
-constexpr double k_label_distance = 16;                                  // between names at the curves' ends
-constexpr int k_longest_labelled_axis = 2;                               // decades whose ticks at 2 and 5 are labelled
+constexpr double k_plot_right = 600, k_height = 460;
+constexpr double k_left = 78, k_top = 46, k_bottom = 60;    // margins
+constexpr double k_name_margin = 44, k_letter_width = 7.5;  // room for the curves' names, pixels
+constexpr double k_label_distance = 16;                     // between names at the curves' ends
+constexpr double k_longest_labelled_axis = 2.5;             // decades whose ticks at 2 and 5 are labelled
 
 /// Positive part of the data on one axis.
 struct LogAxis {
@@ -74,7 +75,11 @@ std::string marker(std::size_t kind, double x, double y, const std::string& attr
 /// Draws one plot; its parts append to one document.
 class SvgPlot {
  public:
-  SvgPlot(const LogPlot& plot, std::string id) : plot_(plot), id_(std::move(id)) {}
+  SvgPlot(const LogPlot& plot, std::string id) : plot_(plot), id_(std::move(id)) {
+    std::size_t longest = 0;
+    for (const PlotCurve& curve : plot.curves) longest = std::max(longest, curve.name.size());
+    width_ = k_plot_right + k_name_margin + k_letter_width * static_cast<double>(longest);
+  }
 
   std::string draw() {
     begin_document();
@@ -84,7 +89,7 @@ class SvgPlot {
       for (std::size_t c = 0; c < plot_.curves.size(); ++c) draw_curve(c);
       draw_names();
     } else {
-      text(k_width / 2, k_height / 2, "middle", "no positive values to show");
+      text(width_ / 2, k_height / 2, "middle", "no positive values to show");
     }
     return svg_ + "</svg>\n";
   }
@@ -118,7 +123,7 @@ class SvgPlot {
         fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{}\" viewBox=\"0 0 {} {}\" width=\"{}\" "
                     "height=\"{}\" role=\"img\" font-family=\"Helvetica, Arial, DejaVu Sans, sans-serif\" "
                     "font-size=\"13\">\n",
-                    id_, k_width, k_height, k_width, k_height));
+                    id_, width_, k_height, width_, k_height));
     add(fmt::format("<title>{}</title>\n", xml_text(plot_.title)));
     add(
         fmt::format("<style>{} #{} .curve{{fill:none;stroke-width:2;stroke-linejoin:round}} #{} .grid,#{} .axis"
@@ -126,7 +131,7 @@ class SvgPlot {
                     "{{stroke:none;fill-opacity:0.16}} #{} .leader{{stroke-width:0.8}}\n"
                     "@media (prefers-color-scheme: dark){{{}}}</style>\n",
                     style(false), id_, id_, id_, id_, id_, id_, style(true)));
-    add(fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n", k_width, k_height));
+    add(fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n", width_, k_height));
     text(k_left, 26, "start", plot_.title, "font-size=\"16\" font-weight=\"600\"");
   }
 
@@ -143,13 +148,13 @@ class SvgPlot {
     if (plot_.level && plot_.level->y > 0 && plot_.level->y > *std::min_element(ys.begin(), ys.end()) / 10) {
       ys.push_back(plot_.level->y);
     }
-    x_ = *make_axis(xs, k_left, k_width - k_right);
+    x_ = *make_axis(xs, k_left, k_plot_right);
     y_ = *make_axis(ys, k_height - k_bottom, k_top);
     return true;
   }
 
   void draw_grid() {
-    const double bottom = k_height - k_bottom, right = k_width - k_right;
+    const double bottom = k_height - k_bottom, right = k_plot_right;
     for (const LogTick& tick : log_ticks(x_.lower, x_.upper)) {
       const double x = x_.position(tick.value);
       line(x, k_top, x, bottom, "grid");
@@ -170,7 +175,7 @@ class SvgPlot {
   void draw_level() {
     if (!plot_.level || !(plot_.level->y >= y_.lower && plot_.level->y <= y_.upper)) return;
     const double y = y_.position(plot_.level->y);
-    line(k_left, y, k_width - k_right, y, "level");
+    line(k_left, y, k_plot_right, y, "level");
     text(k_left + 6, y - 5, "start", plot_.level->name, "font-size=\"11\"");
   }
 
@@ -206,7 +211,7 @@ class SvgPlot {
     std::stable_sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y < b.y; });
     for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + k_label_distance);
     const double overflow = names.empty() ? 0 : std::max(0.0, names.back().y - (k_height - k_bottom));
-    const double x = k_width - k_right + 20;
+    const double x = k_plot_right + 20;
     for (Name& name : names) {
       name.y -= overflow;
       line(name.x + 6, name.y_end, x - 6, name.y, "leader " + colour_class(name.curve));
@@ -217,6 +222,7 @@ class SvgPlot {
 
   const LogPlot& plot_;
   std::string id_, svg_;
+  double width_;
   LogAxis x_, y_;
 };
 
