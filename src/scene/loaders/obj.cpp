@@ -213,8 +213,8 @@ float angle_between(Vec3 a, Vec3 b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-TrianglePlane plane(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
-  return triangle_plane(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+TriangleShape shape_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return triangle_shape(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
 }
 
 /// Mean of the adjoining triangles' normals by their angles at the vertex (Thuermer and Wuethrich 1998, "Computing
@@ -222,13 +222,13 @@ TrianglePlane plane(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>
 void compute_normals(TriangleMesh& mesh) {
   std::vector<Vec3> sums(mesh.positions.size());
   for (const auto& triangle : mesh.triangles) {
-    const auto [double_area, normal] = plane(mesh, triangle);
-    if (double_area == 0) continue;
+    const TriangleShape shape = shape_of(mesh, triangle);
+    if (shape.double_area == 0) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point3 corner = mesh.positions[triangle[i]];
       const float angle =
           angle_between(mesh.positions[triangle[(i + 1) % 3]] - corner, mesh.positions[triangle[(i + 2) % 3]] - corner);
-      sums[triangle[i]] = sums[triangle[i]] + angle * as_vec(normal);
+      sums[triangle[i]] = sums[triangle[i]] + angle * as_vec(shape.normal);
     }
   }
   mesh.normals.clear();
@@ -239,8 +239,8 @@ void wind_by_normals(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangles) {
     const auto& [i, j, k] = triangle;
     const Vec3 sum = as_vec(mesh.normals[i]) + as_vec(mesh.normals[j]) + as_vec(mesh.normals[k]);
-    const auto [double_area, normal] = plane(mesh, triangle);
-    if (double_area > 0 && dot(normal, sum) < 0) std::swap(triangle[1], triangle[2]);
+    const TriangleShape shape = shape_of(mesh, triangle);
+    if (shape.double_area > 0 && dot(shape.normal, sum) < 0) std::swap(triangle[1], triangle[2]);
   }
 }
 

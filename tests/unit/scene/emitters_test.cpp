@@ -4,12 +4,11 @@
 
 #include "core/warp.h"
 #include "scene_fixtures.h"
-#include "statistics.h"
+#include "support/statistics.h"
 
 namespace gradslc {
 namespace {
 
-using test::Mean;
 using test::Random;
 
 /// A lamp of that radiance: index of its light is the number of lights before it.
@@ -72,12 +71,12 @@ TEST(Emitters, GiveTheViewFactorOfParallelRectangles) {
   add_lamp(description, test::parallelogram({0, 0, 1}, {0, 0.7f, 0}, {1.5f, 0, 0}), Rgb(1));
   const Scene scene(std::move(description));
   Random random(1);
-  Mean mean;
+  Moments mean;
   for (int i = 0; i < 100000; ++i) {
     const Vec2 u = random.get2();
     mean.add(gathered(scene, {1.5f * u.x, 0.7f * u.y, 0}, {0, 0, 1}, random));
   }
-  EXPECT_GT(mean.p_value(parallel_view_factor(1.5, 0.7)), test::sidak(1e-3, 2)) << mean.mean();
+  EXPECT_GT(mean.p_value(parallel_view_factor(1.5, 0.7)), sidak(1e-3, 2)) << mean.mean();
 }
 
 TEST(Emitters, GiveTheViewFactorOfPerpendicularRectanglesThatTouch) {
@@ -85,12 +84,12 @@ TEST(Emitters, GiveTheViewFactorOfPerpendicularRectanglesThatTouch) {
   add_lamp(description, test::parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 2}), Rgb(1));  // faces +x
   const Scene scene(std::move(description));
   Random random(2);
-  Mean mean;
+  Moments mean;
   for (int i = 0; i < 100000; ++i) {
     const Vec2 u = random.get2();
     mean.add(gathered(scene, {0.5f * u.x, u.y, 0}, {0, 0, 1}, random));
   }
-  EXPECT_GT(mean.p_value(perpendicular_view_factor(0.5, 2)), test::sidak(1e-3, 2)) << mean.mean();
+  EXPECT_GT(mean.p_value(perpendicular_view_factor(0.5, 2)), sidak(1e-3, 2)) << mean.mean();
 }
 
 // Directions of sample_direct against the integral of pdf_direct over cells of the sphere. False alarm 0.1 %.
@@ -128,7 +127,7 @@ TEST(Emitters, SampleDirectFollowsPdfDirectOverSolidAngle) {
   EXPECT_NEAR(integral, static_cast<double>(chosen) / k_samples,
               0.004);  // the lamp that turns its back is chosen in vain
   EXPECT_LT(integral, 0.95);
-  EXPECT_GT(test::chi_square_p_value(observed, expected), 1e-3);
+  EXPECT_GT(chi_square_test(observed, expected).p_value, 1e-3);
 }
 
 TEST(Emitters, SampleAndPdfAgreeAtTheSamePoint) {
@@ -186,12 +185,12 @@ TEST(Emitters, PowerIsPiTimesAreaTimesRadiance) {
   EXPECT_FLOAT_EQ(power.b, k_pi * 6 * 3);
 }
 
-// Mean carried power is the power; directions have density cos / pi; lamps are chosen by luminance. False alarm 0.1 %
-// for all.
+// Moments carried power is the power; directions have density cos / pi; lamps are chosen by luminance. False alarm 0.1
+// % for all.
 TEST(Emitters, EmissionConservesEnergyAndFollowsTheCosine) {
   const Scene scene = three_lamps();
   constexpr int k_samples = 100000, k_cells = 16;
-  Mean carried[3];
+  Moments carried[3];
   std::vector<double> lamps(3), lamps_expected, cells(k_cells * k_cells);
   Random random(6);
   for (int i = 0; i < k_samples; ++i) {
@@ -209,10 +208,10 @@ TEST(Emitters, EmissionConservesEnergyAndFollowsTheCosine) {
     const double azimuth = std::atan2(local.y, local.x) / (2 * std::numbers::pi) + 0.5;
     ++cells[cell(local.z * local.z) * k_cells + cell(azimuth)];  // cos^2 is uniform
   }
-  const double alpha = test::sidak(1e-3, 5);
+  const double alpha = sidak(1e-3, 5);
   for (int channel = 0; channel < 3; ++channel)
     EXPECT_GT(carried[channel].p_value(scene.emitters().power()[channel]), alpha);
-  EXPECT_GT(test::chi_square_p_value(cells, std::vector<double>(cells.size(), k_samples / 256.0)), alpha);
+  EXPECT_GT(chi_square_test(cells, std::vector<double>(cells.size(), k_samples / 256.0)).p_value, alpha);
   double total = 0;
   for (const TriangleMesh& mesh : scene.meshes()) {
     const float area = length(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[3] - mesh.positions[0]));
@@ -221,7 +220,7 @@ TEST(Emitters, EmissionConservesEnergyAndFollowsTheCosine) {
     total += lamps_expected.back();
   }
   for (double& expected : lamps_expected) expected *= k_samples / total;
-  EXPECT_GT(test::chi_square_p_value(lamps, lamps_expected), alpha);
+  EXPECT_GT(chi_square_test(lamps, lamps_expected).p_value, alpha);
 }
 
 // Points are uniform over the lamp: cells of equal area get equal counts. False alarm 0.1 %.
@@ -237,7 +236,7 @@ TEST(Emitters, EmissionIsUniformOverTheArea) {
     const Point3 p = scene.emitters().sample_emission(u_select, u_point, {0.5f, 0.5f}).point.position;
     ++cells[static_cast<std::size_t>(p.x * 8) * 8 + static_cast<std::size_t>(p.y * 8)];
   }
-  EXPECT_GT(test::chi_square_p_value(cells, std::vector<double>(64, 1000)), 1e-3);
+  EXPECT_GT(chi_square_test(cells, std::vector<double>(64, 1000)).p_value, 1e-3);
 }
 
 TEST(Emitters, NeverChooseBlackLampsOrTrianglesWithoutArea) {
