@@ -11,6 +11,7 @@ namespace gradslc {
 namespace {
 
 constexpr int k_halvings = 7;               // of a budget in seconds, for its curve
+constexpr double k_latest_point = 1.1;      // of its planned seconds: later it would not be that point
 constexpr std::size_t k_recent_passes = 8;  // that the next pass's time is predicted from
 
 }  // namespace
@@ -79,9 +80,8 @@ double MethodRun::predicted_pass_seconds() const {
 
 void MethodRun::skip_missed_targets() {
   if (plan_.budget.kind == Budget::Kind::spp) return;
-  const double tolerance = passes_ > 1 ? predicted_pass_seconds() : 0;
   const auto missed = [&](double target) {
-    return passes_ == last_point_passes_ || spent() + reconstruct_seconds_ > target + tolerance;
+    return passes_ == last_point_passes_ || spent() + reconstruct_seconds_ > k_latest_point * target;
   };
   while (!is_final_target() && point_is_due() && missed(plan_.targets[next_target_])) ++next_target_;
 }

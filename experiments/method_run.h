@@ -57,8 +57,9 @@ class MethodRun {
   double progress() const;
   /// Prepares the method, or renders a pass, or gives the image of a curve point that is due; only while !done().
   /// A point is due when its passes are there, or when one more pass and the point's reconstruction, as long as earlier
-  /// ones took, would end beyond its seconds. Points before whose seconds there was no image, or that lie more than a
-  /// pass behind, are left out; the final one is not, and gets one pass at least.
+  /// ones took, would end beyond its seconds. Points that cannot be given before a tenth more than their seconds have
+  /// passed, or since whose predecessor no pass was rendered, are left out; the final one is not, and gets one pass at
+  /// least.
   std::optional<PointImage> step();
 
   const std::string& name() const { return plan_.name; }

@@ -125,12 +125,13 @@ class SvgPlot {
                     "font-size=\"13\">\n",
                     id_, width_, k_height, width_, k_height));
     add(fmt::format("<title>{}</title>\n", xml_text(plot_.title)));
+    // Last come the rules that hold in both modes, so that they win over the colours.
     add(
-        fmt::format("<style>{} #{} .curve{{fill:none;stroke-width:2;stroke-linejoin:round}} #{} .grid,#{} .axis"
-                    "{{stroke-width:1}} #{} .level{{stroke-width:1.2;stroke-dasharray:2 4}} #{} .band"
-                    "{{stroke:none;fill-opacity:0.16}} #{} .leader{{stroke-width:0.8}}\n"
-                    "@media (prefers-color-scheme: dark){{{}}}</style>\n",
-                    style(false), id_, id_, id_, id_, id_, id_, style(true)));
+        fmt::format("<style>{1}\n@media (prefers-color-scheme: dark){{{2}}}\n"
+                    "#{0} .curve{{fill:none;stroke-width:2;stroke-linejoin:round}} #{0} .more{{stroke-dasharray:7 3}} "
+                    "#{0} .band{{stroke:none;fill-opacity:0.16}} #{0} .leader{{stroke-width:0.8}} "
+                    "#{0} .level{{stroke-width:1.2;stroke-dasharray:2 4}}</style>\n",
+                    id_, style(false), style(true)));
     add(fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n", width_, k_height));
     text(k_left, 26, "start", plot_.title, "font-size=\"16\" font-weight=\"600\"");
   }
@@ -189,7 +190,8 @@ class SvgPlot {
     for (const PlotPoint& p : points) curve += place(p.x, p.y), band += place(p.x, p.y_upper);
     for (auto p = points.rbegin(); p != points.rend(); ++p) band += place(p->x, p->y_lower);
     add(fmt::format("<polygon class=\"band {}\" points=\"{}\"/>\n", colour_class(c), band));
-    add(fmt::format("<polyline class=\"{} curve\" style=\"fill:none\" points=\"{}\"/>\n", colour_class(c), curve));
+    add(fmt::format("<polyline class=\"{} curve{}\" points=\"{}\"/>\n", colour_class(c), c < k_colours ? "" : " more",
+                    curve));
     for (const PlotPoint& p : points) {
       add(marker(c, x_.position(p.x), y_.position(p.y), fmt::format("class=\"{}\"", colour_class(c))));
     }

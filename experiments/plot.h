@@ -28,8 +28,9 @@ struct LogPlot {
 };
 
 /// An SVG document: ticks at 1, 2 and 5, a band over the repeats, each curve named at its end in a colour and with a
-/// marker of its own (Okabe and Ito's palette, distinct for colour-blind readers); follows the reader's light or dark
-/// mode. `id` is a prefix of the class names, so that several plots can stand in one HTML page.
+/// marker of its own (Okabe and Ito's palette, distinct for colour-blind readers; dashed where it begins again);
+/// follows the reader's light or dark mode. `id` is a prefix of the class names, so that several plots can stand in one
+/// HTML page.
 std::string to_svg(const LogPlot& plot, const std::string& id);
 
 /// Ticks of a logarithmic axis from `lower` to `upper` > `lower` > 0.

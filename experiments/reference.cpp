@@ -104,6 +104,25 @@ Reference rendered_reference(int spp, const Scene& scene, const nlohmann::json& 
   return reference;
 }
 
+/// Completes a reference whose images, file and spp are set.
+void finish(Reference& reference) {
+  try {
+    compare_images(reference.images.mean(), reference.images);  // throws where it is of no use
+  } catch (const Error& error) {
+    throw_input_error(reference.file.string(), error.message());
+  }
+  reference.noise = reference_noise(reference.images);
+  reference.about["file"] = reference.file.string();
+  if (reference.noise) reference.about["noise_relmse"] = *reference.noise;
+}
+
+}  // namespace
+
+std::filesystem::path reference_folder(const std::filesystem::path& results) {
+  const char* shared = std::getenv("GRADSLC_REFERENCES");
+  return shared != nullptr && shared[0] != '\0' ? std::filesystem::path(shared) : results / "references";
+}
+
 Reference imported_reference(const std::filesystem::path& file, Resolution wanted) {
   Reference reference;
   reference.images.a = read_exr(file).image;
@@ -115,14 +134,8 @@ Reference imported_reference(const std::filesystem::path& file, Resolution wante
                                                  given.width, given.height, wanted.width, wanted.height));
   }
   reference.about = {{"imported", true}, {"sha256", sha256_of_file(file)}};
+  finish(reference);
   return reference;
-}
-
-}  // namespace
-
-std::filesystem::path reference_folder(const std::filesystem::path& results) {
-  const char* shared = std::getenv("GRADSLC_REFERENCES");
-  return shared != nullptr && shared[0] != '\0' ? std::filesystem::path(shared) : results / "references";
 }
 
 nlohmann::json reference_key(const std::string& scene_hash, Resolution resolution, const RenderSettings& settings,
@@ -139,21 +152,10 @@ Reference obtain_reference(const ReferencePlan& plan, const Scene& scene, const 
                            const std::function<void(const std::string&)>& log,
                            const std::function<void(double)>& progress) {
   const Resolution resolution = scene.camera().resolution();
-  Reference reference;
-  if (plan.kind == ReferencePlan::Kind::file) {
-    reference = imported_reference(plan.file, resolution);
-  } else {
-    const nlohmann::json key = reference_key(scene_hash, resolution, settings, plan.spp);
-    reference = rendered_reference(plan.spp, scene, key, settings, folder, makers, log, progress);
-  }
-  try {
-    compare_images(reference.images.mean(), reference.images);
-  } catch (const Error& error) {
-    throw_input_error(reference.file.string(), error.message());
-  }
-  reference.noise = reference_noise(reference.images);
-  reference.about["file"] = reference.file.string();
-  if (reference.noise) reference.about["noise_relmse"] = *reference.noise;
+  if (plan.kind == ReferencePlan::Kind::file) return imported_reference(plan.file, resolution);
+  const nlohmann::json key = reference_key(scene_hash, resolution, settings, plan.spp);
+  Reference reference = rendered_reference(plan.spp, scene, key, settings, folder, makers, log, progress);
+  finish(reference);
   return reference;
 }
 

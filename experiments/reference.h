@@ -25,6 +25,9 @@ std::filesystem::path reference_folder(const std::filesystem::path& results);
 nlohmann::json reference_key(const std::string& scene_hash, Resolution resolution, const RenderSettings& settings,
                              int spp);
 
+/// An image of an EXR file as reference. Error (input) where it does not have the `wanted` size or is black.
+Reference imported_reference(const std::filesystem::path& file, Resolution wanted);
+
 /// The reference of a scene: read from `folder` if a file with this key is there, else rendered by `spt` in two halves
 /// with seeds of their own (independent of each other, of the experiment's seed and of its methods) and kept there; or
 /// the imported image. Error (input) where an imported image does not fit, and where the reference is black. `progress`

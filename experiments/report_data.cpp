@@ -175,8 +175,12 @@ std::optional<LogPlot> convergence_plot(std::span<const ResultRow> rows, const s
   for (const std::string& method : methods) {
     PlotCurve& curve = plot.curves.emplace_back();
     curve.name = method;
+    std::size_t repeats = 0;
     for (const auto& [key, same] : points) {
-      if (key.first == method) curve.points.push_back(plot_point(same));
+      if (key.first == method) repeats = std::max(repeats, same.size());
+    }
+    for (const auto& [key, same] : points) {
+      if (key.first == method && same.size() == repeats) curve.points.push_back(plot_point(same));
     }
   }
   if (noise) plot.level = LogPlot::Level{*noise, "the reference's own relmse"};

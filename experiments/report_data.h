@@ -36,7 +36,8 @@ struct ReportData {
 };
 ReportData read_report_data(const std::filesystem::path& results_folder);
 
-/// relmse over seconds of all methods of a scene; nullopt where no errors were measured.
+/// relmse over seconds of all methods of a scene, at the curve points that all repeats of a method have (a mean over
+/// others would jump); nullopt where no errors were measured.
 std::optional<LogPlot> convergence_plot(std::span<const ResultRow> rows, const std::string& scene);
 
 std::string report_markdown(const ReportData& data);

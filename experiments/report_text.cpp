@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "experiments/metrics.h"
-#include "experiments/report_images.h"
 #include "experiments/report_data.h"
+#include "experiments/report_images.h"
 #include "experiments/tables.h"
 
 namespace gradslc {
@@ -74,7 +74,8 @@ h1, h2 { line-height: 1.2; } h2 { margin-top: 2.5rem; border-top: 1px solid var(
 .wide { overflow-x: auto; } table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 0.9rem; }
 th, td { padding: 0.35rem 0.7rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--rule); }
 th { color: var(--dim); font-weight: 600; } th:first-child, td:first-child, th:last-child, td:last-child { text-align: left; }
-.note { color: var(--dim); font-size: 0.9rem; } svg { max-width: 100%; height: auto; }
+th:first-child, td:first-child { position: sticky; left: 0; background: var(--paper); }
+.note { color: var(--dim); font-size: 0.9rem; } svg { max-width: 100%; min-width: 36rem; height: auto; }
 .images { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)); gap: 0.8rem; }
 figure { margin: 0; } img { width: 100%; height: auto; display: block; image-rendering: pixelated; }
 figcaption { color: var(--dim); font-size: 0.9rem; }
@@ -84,7 +85,10 @@ std::string html_scene(const SceneReport& scene) {
   std::string html = "<section>\n<h2>" + xml_text(scene.summary.scene) + "</h2>\n";
   html += html_paragraph(scene.conditions, "note");
   html += html_list(scene.verdict) + html_table(result_table(scene.summary, Markup::text));
-  if (scene.plot) html += to_svg(*scene.plot, scene.plot_id) + html_paragraph(k_plot_caption, "note");
+  if (scene.plot) {
+    html += fmt::format("<div class=\"wide\">{}</div>\n", to_svg(*scene.plot, scene.plot_id));
+    html += html_paragraph(k_plot_caption, "note");
+  }
   html += html_images(scene.images, k_image_caption) + html_images(scene.error_images, k_error_caption);
   return html + "</section>\n";
 }

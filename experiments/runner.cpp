@@ -43,6 +43,21 @@ class ProgressMeter {
   std::string what_;
 };
 
+/// Makes everything once that the experiment needs, so that bad input is found before anything is written or waited
+/// for.
+void check_inputs(const Experiment& experiment, const Makers& makers) {
+  for (const MethodPlan& method : experiment.methods) {
+    makers.integrator(method);
+    makers.reconstruction(method);
+  }
+  for (const ScenePlan& plan : experiment.scenes) {
+    const Scene scene = makers.scene(plan);
+    if (experiment.reference.kind == ReferencePlan::Kind::file) {
+      imported_reference(experiment.reference.file, scene.camera().resolution());
+    }
+  }
+}
+
 /// An experiment on its way.
 class Run {
  public:
@@ -142,6 +157,7 @@ class Run {
                           const MethodPlan& method) const {
     const Budget& budget = experiment_.budget;
     return {{"experiment", experiment_.name},
+            {"config", experiment_.resolved},
             {"config_sha256", config_hash_},
             {"scene",
              {{"name", plan.name},
@@ -187,6 +203,7 @@ void run_experiment(const Experiment& experiment, const RunOptions& options) {
 }
 
 void run_experiment(const Experiment& experiment, const RunOptions& options, const Makers& makers) {
+  check_inputs(experiment, makers);
   Run(experiment, options, makers).run();
   write_report(options.out);
 }

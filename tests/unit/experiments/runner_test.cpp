@@ -170,6 +170,21 @@ TEST_F(RunnerTest, FolderThatAnotherProcessHoldsIsRefused) {
   EXPECT_NO_THROW(run(experiment(k_spp)));
 }
 
+TEST_F(RunnerTest, BadInputIsFoundBeforeAnythingIsWritten) {
+  Experiment e = experiment(k_spp);
+  e.scenes.push_back({"two", folder.path() / "missing.xml", {}, {}, {}});
+  Makers makers = fakes::makers(world, speeds);
+  makers.scene = [](const ScenePlan& plan) {
+    read_file(plan.file);
+    return fakes::fake_scene();
+  };
+  RunOptions options;
+  options.out = out();
+  EXPECT_THROW(run_experiment(e, options, makers), Error);
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  EXPECT_TRUE(world.protocol.empty()) << "nor rendered";
+}
+
 TEST_F(RunnerTest, FolderThatCannotBeMadeIsBadInput) {
   write_file_atomically(out(), "a file");
   try {
@@ -187,6 +202,7 @@ TEST_F(RunnerTest, ManifestSaysWhatIsNeededToRenderAgain) {
       nlohmann::json::parse(read_file(std::filesystem::path(image).replace_extension(".json")));
   EXPECT_EQ(manifest.at("settings").at("seed"), repeat_seed(1, 0));
   EXPECT_EQ(manifest.at("method").at("name"), "B");
+  EXPECT_EQ(manifest.at("config").at("name"), "test");
   EXPECT_EQ(manifest.at("passes"), rows().back().passes);
   EXPECT_EQ(manifest.at("image").at("sha256"), sha256_of_file(image));
   EXPECT_EQ(manifest.at("scene").at("file_sha256"), sha256("<scene/>"));
