@@ -87,7 +87,7 @@ TEST_F(BadInput, Method) {
   expect_method_refused(R"({"integrator": "slc", "cut_size": 0})", {"--method:1:35", "/cut_size", "not 0"});
   expect_method_refused(R"({"integrator": "slc", "cut_size": "10"})", {"/cut_size", "must be an integer"});
   expect_method_refused(R"({"integrator": "slc", "vpl": {"light_paths": -1}})", {"/vpl/light_paths", "not -1"});
-  expect_method_refused(R"({"integrator": "gradslc", "shift": "reconect"})", {"/shift", "\"reconnection\""});
+  expect_method_refused(R"({"integrator": "gradslc", "shift": "reconection"})", {"/shift", "\"reconnection\""});
   expect_method_refused(R"({"integrator": "gradslc", "reconstruction": "l3"})", {"/reconstruction", "\"l2\""});
   expect_refusal({"render", "scene.xml", "--method", "slc", "--set", "cut_size"}, {"--set cut_size", "key=value"});
   expect_refusal({"render", "scene.xml", "--method", "slc", "--set", "cut_size=0"}, {"--set cut_size=0", "/cut_size"});
