@@ -16,7 +16,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace gradslc::testing {
+namespace gradslc::fixtures {
 
 struct Outcome {
   int exit_code = -1;  ///< -1: ended by a signal
@@ -102,4 +102,4 @@ class ProgramTest : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-}  // namespace gradslc::testing
+}  // namespace gradslc::fixtures
