@@ -17,7 +17,13 @@ struct ConfigOptions {
   Environment environment = process_environment();
 };
 
-/// Reads an experiment's config (docs: README, "Configs"). Paths in it are relative to its folder. Throws Error (input)
+/// Reads an experiment's config, a JSON object with comments:
+///
+///     name (default: the file's), description, seed, repeats, max_depth, components, sampler, parts,
+///     scenes: [{file, name, width, height, max_depth}], methods: as read_method() takes them,
+///     budget: {seconds} or {spp}, reference (optional): {spp} or {file}
+///
+/// Paths are relative to the config's folder, and ${NAME} in them is an environment variable. Throws Error (input)
 /// where the file cannot be read, is not JSON, or an override leads nowhere. Everything that is wrong with the content
 /// goes to `problems`; nullopt if anything is.
 std::optional<Experiment> load_experiment(const std::filesystem::path& file, const ConfigOptions& options,

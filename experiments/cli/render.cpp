@@ -31,7 +31,7 @@ struct RenderArguments {
   std::optional<int> width, height;
   std::optional<double> seconds;
   int spp = 16, threads = 0, max_depth = RenderSettings{}.max_depth;
-  std::uint64_t seed = RenderSettings{}.seed;
+  std::int64_t seed = 1;
   std::string sampler;
   std::vector<std::string> overrides;
   float exposure = 0;
@@ -64,7 +64,7 @@ Components components_of(const std::string& list) {
 
 RenderSettings settings_of(const RenderArguments& arguments) {
   RenderSettings settings;
-  settings.seed = arguments.seed;
+  settings.seed = static_cast<std::uint64_t>(arguments.seed);
   settings.max_depth = arguments.max_depth;
   settings.components = components_of(arguments.components);
   if (arguments.sampler.empty()) return settings;
@@ -176,7 +176,9 @@ Command render_command(CLI::App& parent) {
   app.add_option("--seconds", arguments->seconds, "Wall-clock time to spend instead")
       ->check(CLI::Range(1e-3, 1e9))
       ->excludes(spp);
-  app.add_option("--seed", arguments->seed, "Seed of all random numbers")->capture_default_str();
+  app.add_option("--seed", arguments->seed, "Seed of all random numbers")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
   app.add_option("--sampler", arguments->sampler, "Where random numbers come from: see list samplers");
   app.add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 4096))

@@ -11,6 +11,7 @@
 #include "experiments/config.h"
 #include "experiments/results_folder.h"
 #include "experiments/runner.h"
+#include "experiments/scene_check.h"
 
 namespace gradslc {
 namespace {
@@ -38,6 +39,8 @@ int run(const RunArguments& arguments) {
       arguments.out.empty() ? std::filesystem::path("results") / file_name_for(experiment->name) : arguments.out;
   require_writable_folder(out);
   set_thread_count(arguments.threads);
+  check_scenes(*experiment, problems);
+  if (!problems.empty()) return report_problems(problems);
   Console console(arguments.quiet);
   run_experiment(*experiment, {out, [&](const std::string& line) { console.log(line); },
                                [&](double fraction, double eta, const std::string& what) {

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <set>
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/console.h"
 #include "experiments/config.h"
-#include "scene/loaders/loader.h"
+#include "experiments/scene_check.h"
 
 namespace gradslc {
 namespace {
@@ -19,18 +18,6 @@ struct ValidateArguments {
   bool print_json = false, quiet = false;
 };
 
-void check_scenes(const Experiment& experiment, Problems& problems) {
-  std::set<std::filesystem::path> checked;
-  for (const ScenePlan& scene : experiment.scenes) {
-    if (!checked.insert(scene.file).second) continue;
-    try {
-      load_scene(scene.file.string());
-    } catch (const Error& error) {
-      problems.add(error.where(), error.message());
-    }
-  }
-}
-
 std::optional<Experiment> check(const ValidateArguments& arguments, Problems& problems) {
   try {
     std::optional<Experiment> experiment =
@@ -38,6 +25,7 @@ std::optional<Experiment> check(const ValidateArguments& arguments, Problems& pr
     if (experiment) check_scenes(*experiment, problems);
     return experiment;
   } catch (const Error& error) {
+    if (error.kind() == Error::Kind::failure) throw;
     problems.add(error.where(), error.message());
     return std::nullopt;
   }

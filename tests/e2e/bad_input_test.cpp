@@ -8,10 +8,10 @@
 namespace gradslc {
 namespace {
 
-using testing::Outcome;
+using fixtures::Outcome;
 
 /// Bad input of every kind ends with exit code 2, one error line that says what is wrong and where, and no new file.
-class BadInput : public testing::ProgramTest {
+class BadInput : public fixtures::ProgramTest {
  protected:
   void expect_refusal(const std::vector<std::string>& arguments, const std::vector<std::string>& expected_in_error) {
     const std::vector<std::string> before = files();
@@ -46,7 +46,7 @@ class BadInput : public testing::ProgramTest {
 
 /// k_scene with the first `from` replaced.
 std::string scene_with(const std::string& from, const std::string& to) {
-  std::string scene = testing::k_scene;
+  std::string scene = fixtures::k_scene;
   const std::size_t at = scene.find(from);
   EXPECT_NE(at, scene.npos) << from;
   return at == scene.npos ? scene : scene.replace(at, from.size(), to);
@@ -87,7 +87,7 @@ TEST_F(BadInput, Method) {
   expect_method_refused(R"({"integrator": "slc", "cut_size": 0})", {"--method:1:35", "/cut_size", "not 0"});
   expect_method_refused(R"({"integrator": "slc", "cut_size": "10"})", {"/cut_size", "must be an integer"});
   expect_method_refused(R"({"integrator": "slc", "vpl": {"light_paths": -1}})", {"/vpl/light_paths", "not -1"});
-  expect_method_refused(R"({"integrator": "gradslc", "shift": "reconect"})", {"/shift", "\"reconnection\""});
+  expect_method_refused(R"({"integrator": "gradslc", "shift": "reconection"})", {"/shift", "\"reconnection\""});
   expect_method_refused(R"({"integrator": "gradslc", "reconstruction": "l3"})", {"/reconstruction", "\"l2\""});
   expect_refusal({"render", "scene.xml", "--method", "slc", "--set", "cut_size"}, {"--set cut_size", "key=value"});
   expect_refusal({"render", "scene.xml", "--method", "slc", "--set", "cut_size=0"}, {"--set cut_size=0", "/cut_size"});

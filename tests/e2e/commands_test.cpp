@@ -9,11 +9,11 @@
 namespace gradslc {
 namespace {
 
+using fixtures::content_of;
+using fixtures::Outcome;
 using nlohmann::json;
-using testing::content_of;
-using testing::Outcome;
 
-class Commands : public testing::ProgramTest {};
+class Commands : public fixtures::ProgramTest {};
 
 TEST_F(Commands, HelpAndVersionSucceed) {
   for (const char* command : {"render", "run", "report", "compare", "info", "list", "validate"}) {

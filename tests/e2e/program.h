@@ -1,6 +1,7 @@
 #pragma once
 // Runs the real executable, as a user would.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -15,7 +16,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace gradslc::testing {
+namespace gradslc::fixtures {
 
 struct Outcome {
   int exit_code = -1;  ///< -1: ended by a signal
@@ -28,19 +29,27 @@ inline std::string content_of(const std::filesystem::path& file) {
   return content.str();
 }
 
+/// `argument` as one word of a shell command.
 inline std::string quoted(const std::string& argument) {
-  std::string text = "'";
-  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+  std::string text(1, '\'');
+  for (const char c : argument) {
+    if (c == '\'')
+      text.append("'\\''");
+    else
+      text.push_back(c);
+  }
+  text.push_back('\'');
+  return text;
 }
 
 /// gradslc with `arguments`, in `folder`.
 inline Outcome run_program(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
   const TemporaryFolder elsewhere;
   const std::filesystem::path errors = elsewhere.path() / "stderr";
-  std::string command = "cd " + quoted(folder.string()) + " && unset GRADSLC_LOST && " + quoted(GRADSLC_EXECUTABLE);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " 2>" + quoted(errors.string()) + " </dev/null";
+  std::string command =
+      fmt::format("cd {} && unset GRADSLC_LOST && {}", quoted(folder.string()), quoted(GRADSLC_EXECUTABLE));
+  for (const std::string& argument : arguments) command += fmt::format(" {}", quoted(argument));
+  command += fmt::format(" 2>{} </dev/null", quoted(errors.string()));
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return outcome;
@@ -93,4 +102,4 @@ class ProgramTest : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-}  // namespace gradslc::testing
+}  // namespace gradslc::fixtures

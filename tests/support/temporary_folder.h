@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace gradslc::testing {
+namespace gradslc::fixtures {
 
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {
@@ -35,4 +35,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace gradslc::testing
+}  // namespace gradslc::fixtures

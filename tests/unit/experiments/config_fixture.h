@@ -5,7 +5,7 @@
 
 #include "experiments/method_plan.h"
 
-namespace gradslc::testing {
+namespace gradslc::fixtures {
 
 class FakeIntegrator final : public Integrator {
  public:
@@ -61,4 +61,4 @@ inline Registries fake_registries() {
   return {k_integrators, k_reconstructions, k_samplers};
 }
 
-}  // namespace gradslc::testing
+}  // namespace gradslc::fixtures

@@ -12,9 +12,9 @@
 namespace gradslc {
 namespace {
 
+using fixtures::fake_registries;
+using fixtures::TemporaryFolder;
 using nlohmann::json;
-using testing::fake_registries;
-using testing::TemporaryFolder;
 
 /// Loads configs from a folder that has scene files; the environment holds HERE, the folder.
 class Config : public ::testing::Test {
@@ -128,7 +128,7 @@ TEST_F(Config, OverridesApplyBeforeTheCheck) {
   EXPECT_EQ(experiment->budget.value, 8);
   EXPECT_EQ(experiment->methods[1].parameters.at("vpl").at("light_paths"), 1000);
   EXPECT_EQ(experiment->settings.seed, 9u);
-  EXPECT_EQ(problems_of(k_issue_config, {"repeats=-1"}),
+  ASSERT_EQ(problems_of(k_issue_config, {"repeats=-1"}),
             std::vector<std::string>{"/repeats: must be 1 to 1000000, not -1"});
   EXPECT_EQ(problems_.all()[0].where().file, "--set repeats=-1");
 }
@@ -234,7 +234,7 @@ TEST_F(Config, ReportsEveryProblemWithItsPosition) {
   std::vector<std::string> found;
   for (const Error& error : problems_.all())
     found.push_back(std::to_string(error.where().line) + ":" + std::to_string(error.where().column));
-  EXPECT_EQ(found, (std::vector<std::string>{"1:14", "3:39", "4:22"}));
+  ASSERT_EQ(found, (std::vector<std::string>{"1:14", "3:39", "4:22"}));
   EXPECT_EQ(problems_.all()[1].what(),
             (folder_.path() / "test-config.json").string() +
                 ":3:39: error: /methods/0/cut_sise: unknown key; did you mean \"cut_size\"?\n"
@@ -246,12 +246,12 @@ TEST_F(Config, MakesWhatAMethodAsksFor) {
   const std::optional<Experiment> experiment = load(k_issue_config);
   ASSERT_TRUE(experiment);
   const auto integrator = make_integrator(experiment->methods[1], fake_registries());
-  const auto& fake = dynamic_cast<const testing::FakeIntegrator&>(*integrator);
+  const auto& fake = dynamic_cast<const fixtures::FakeIntegrator&>(*integrator);
   EXPECT_EQ(fake.light_paths, 840000);
   EXPECT_EQ(fake.cut_size, 20);
   const auto reconstruction = make_reconstruction(experiment->methods[1], fake_registries());
   ASSERT_TRUE(reconstruction);
-  EXPECT_EQ(dynamic_cast<const testing::FakeReconstruction&>(*reconstruction).alpha, 0.5f);
+  EXPECT_EQ(dynamic_cast<const fixtures::FakeReconstruction&>(*reconstruction).alpha, 0.5f);
   EXPECT_FALSE(make_reconstruction(experiment->methods[0], fake_registries()));
   MethodPlan broken = experiment->methods[1];
   broken.parameters["cut_size"] = 0;

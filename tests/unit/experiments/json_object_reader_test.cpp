@@ -14,7 +14,7 @@ namespace gradslc {
 namespace {
 
 using nlohmann::json;
-using testing::FakeIntegrator;
+using fixtures::FakeIntegrator;
 
 /// Reads `text` into `target` and returns what was wrong: "line:column pointer: message".
 std::vector<std::string> read(FakeIntegrator& target, const std::string& text) {
