@@ -24,8 +24,8 @@ struct ScenePlan {
 struct MethodPlan {
   std::string name;
   std::string integrator;
-  nlohmann::json parameters;      ///< the integrator's keys only, as written; validated
-  std::string reconstruction;     ///< name in the registry; "none" by default
+  nlohmann::json parameters;   ///< the integrator's keys only, as written; validated
+  std::string reconstruction;  ///< name in the registry; "none" by default
   nlohmann::json reconstruction_parameters;
 };
 

@@ -1,18 +1,21 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;  // OpenSSL's digest state
+
 namespace gradslc {
 
-/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces.
+/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces, by OpenSSL.
 class Sha256 {
  public:
+  Sha256();
   void add(std::span<const std::byte> bytes);
   void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
   /// A number's eight bytes, lowest first.
@@ -21,12 +24,10 @@ class Sha256 {
   std::string finish();
 
  private:
-  void compress(const std::byte* block);
-
-  std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::array<std::byte, 64> pending_ = {};
-  std::uint64_t length_ = 0;  // bytes so far
+  struct Release {
+    void operator()(evp_md_ctx_st* state) const;
+  };
+  std::unique_ptr<evp_md_ctx_st, Release> state_;
 };
 
 std::string sha256(std::string_view text);

@@ -12,7 +12,8 @@ namespace gradslc {
 struct Material;
 
 /// The properties of one plug-in element of a scene file, by their snake_case (Mitsuba 3) names; the 0.6 dialect's
-/// camelCase is translated by the reader. Reading marks a property as known; what is left unread is reported as an error.
+/// camelCase is translated by the reader. Reading marks a property as known; what is left unread is reported as an
+/// error.
 class PropertyReader {
  public:
   virtual ~PropertyReader() = default;

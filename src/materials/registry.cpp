@@ -10,7 +10,8 @@ Material make_diffuse(PropertyReader& properties) {
 Material make_conductor(PropertyReader& properties) {
   ConductorMaterial conductor;
   const std::string preset = properties.text("material", "");
-  if (!preset.empty() && preset != "none") properties.fail("material", "only material \"none\" (a perfect mirror) is known; give eta and k instead");
+  if (!preset.empty() && preset != "none")
+    properties.fail("material", "only material \"none\" (a perfect mirror) is known; give eta and k instead");
   const bool mirror = preset == "none";
   conductor.eta = properties.colour("eta", mirror ? Rgb(0.0f) : Rgb(0.2004f, 0.9240f, 1.1022f));  // copper
   conductor.k = properties.colour("k", mirror ? Rgb(1.0f) : Rgb(3.9129f, 2.4528f, 2.1421f));

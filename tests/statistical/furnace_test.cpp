@@ -60,7 +60,8 @@ TEST(ClosedFurnace, ShallowestIndirectLight) { expect_furnace({}, 3); }
 TEST(ClosedFurnace, ClampingLosesEnergy) {  // a control: bounding without compensation must be seen
   const Scene scene = closed_furnace(Rgb(0.5f), {16, 16});
   const Method method{"clamped", "slc", {{"vpl/light_paths", 50.0}, {"vpl/bounding", "clamp"}, {"vpl/bound", 0.5}}};
-  const auto moments = block_moments(method, scene, {.max_depth = 6}, {.runs = 100, .passes = 2, .block = 16, .seed = 11});
+  const auto moments =
+      block_moments(method, scene, {.max_depth = 6}, {.runs = 100, .passes = 2, .block = 16, .seed = 11});
   const Moments& image = moments.blocks.at(Quantity::image)[0];
   EXPECT_LT(image.p_value(furnace_radiance(0.5, {}, 6)), 1e-6) << image.mean();
 }

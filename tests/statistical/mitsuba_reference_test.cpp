@@ -39,7 +39,8 @@ double mean_of(const std::vector<double>& values) {
 
 /// Mean square over the 3x3 blocks around `i`: the local noise of a reference, from its two halves.
 double local_variance(const std::vector<double>& a, const std::vector<double>& b, int columns, std::size_t i) {
-  const int rows = static_cast<int>(a.size()) / columns, x = static_cast<int>(i) % columns, y = static_cast<int>(i) / columns;
+  const int rows = static_cast<int>(a.size()) / columns, x = static_cast<int>(i) % columns,
+            y = static_cast<int>(i) / columns;
   double sum = 0;
   int n = 0;
   for (int v = std::max(0, y - 1); v <= std::min(rows - 1, y + 1); ++v)
@@ -59,11 +60,12 @@ struct Lit {
 };
 
 class CornellBox : public testing::TestWithParam<Lit> {};
-INSTANTIATE_TEST_SUITE_P(Reference, CornellBox,
-                         testing::Values(Lit{"all", 8, {}, "cornell-box-depth8", nullptr},
-                                         Lit{"direct", 2, {}, "cornell-box-depth2", nullptr},
-                                         Lit{"indirect", 8, {.emission = false, .direct = false}, "cornell-box-depth8", "cornell-box-depth2"}),
-                         [](const auto& entry) { return entry.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Reference, CornellBox,
+    testing::Values(
+        Lit{"all", 8, {}, "cornell-box-depth8", nullptr}, Lit{"direct", 2, {}, "cornell-box-depth2", nullptr},
+        Lit{"indirect", 8, {.emission = false, .direct = false}, "cornell-box-depth8", "cornell-box-depth2"}),
+    [](const auto& entry) { return entry.param.name; });
 
 TEST_P(CornellBox, PathTracingMatchesMitsuba) {
   const std::filesystem::path scene_file = k_shared / "scenes/cornell-box/scene_v0.6.xml";
@@ -109,9 +111,11 @@ TEST_P(CornellBox, PathTracingMatchesMitsuba) {
     const double variance = ours[i].standard_error() * ours[i].standard_error() + local_variance(a, b, 16, i);
     const double z = (ours[i].mean() - (a[i] + b[i]) / 2) / std::sqrt(variance);
     if (std::abs(z) > 3.5) ++beyond;
-    EXPECT_LT(std::abs(z), 12) << fmt::format("block {}: {} where Mitsuba has {}", i, ours[i].mean(), (a[i] + b[i]) / 2);
+    EXPECT_LT(std::abs(z), 12) << fmt::format("block {}: {} where Mitsuba has {}", i, ours[i].mean(),
+                                              (a[i] + b[i]) / 2);
   }
-  EXPECT_LE(beyond, 8) << "blocks that differ beyond their noise";  // binomial(256, 0.01): more than 8 in 0.1 % of cases
+  EXPECT_LE(beyond, 8)
+      << "blocks that differ beyond their noise";  // binomial(256, 0.01): more than 8 in 0.1 % of cases
   fmt::print("mean ratio {:.5f}, {} of {} blocks beyond z = 3.5\n", our_mean / reference_mean, beyond, ours.size());
 }
 

@@ -26,14 +26,16 @@ const std::vector<Method>& lightcut_methods() {
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}, {"cut_size", 3.0}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}}},
-      {"gradslc random replay 5x2", "gradslc",
+      {"gradslc random replay 5x2",
+       "gradslc",
        {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}, {"block/width", 5.0}, {"block/height", 2.0}}},
   };
   return k_methods;
 }
 
 constexpr Quantity k_compared[] = {Quantity::image,    Quantity::direct, Quantity::vpl_and_compensation,
-                                   Quantity::specular, Quantity::prefix, Quantity::dx, Quantity::dy};
+                                   Quantity::specular, Quantity::prefix, Quantity::dx,
+                                   Quantity::dy};
 
 /// Compares methods with spt on a scene.
 void expect_unbiased(const Scene& scene, const RenderSettings& settings, const std::vector<Method>& methods) {
@@ -45,8 +47,8 @@ void expect_unbiased(const Scene& scene, const RenderSettings& settings, const s
       // spt writes vpl and compensation as one.
       const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
       EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
-          << fmt::format("{}, {}: block {} has {} where spt has {}, p = {:.2g}", method.label, to_string(quantity), c.block,
-                         c.mean_a, c.mean_b, c.p_value);
+          << fmt::format("{}, {}: block {} has {} where spt has {}, p = {:.2g}", method.label, to_string(quantity),
+                         c.block, c.mean_a, c.mean_b, c.p_value);
     }
   }
 }
@@ -69,7 +71,8 @@ TEST(Unbiased, MirrorBoxIndirectLight) {
 
 TEST(Unbiased, RealCornellBox) {
   const std::filesystem::path file = std::filesystem::path(GRADSLC_SHARED_DIR) / "scenes/cornell-box/scene_v0.6.xml";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
   expect_unbiased(Scene(load_scene(file.string(), {.width = 32, .height = 32})), {.max_depth = 7}, lightcut_methods());
 }
 

@@ -33,7 +33,8 @@ class ParameterAssigner final : public ParameterVisitor {
   void real(std::string_view name, double& value, Range, std::string_view, std::string_view) override {
     if (const auto* v = take<double>(name)) value = *v;
   }
-  void choice(std::string_view name, std::size_t& index, const std::vector<std::string>& names, std::string_view) override {
+  void choice(std::string_view name, std::size_t& index, const std::vector<std::string>& names,
+              std::string_view) override {
     const auto* v = take<std::string>(name);
     if (!v) return;
     const auto found = std::find(names.begin(), names.end(), *v);
@@ -91,8 +92,8 @@ std::unique_ptr<Integrator> Method::make() const {
 }
 
 std::string to_string(Quantity quantity) {
-  constexpr const char* k_names[] = {"image",    "direct", "vpl",                  "compensation",
-                                     "specular", "prefix", "vpl and compensation", "dx", "dy"};
+  constexpr const char* k_names[] = {
+      "image", "direct", "vpl", "compensation", "specular", "prefix", "vpl and compensation", "dx", "dy"};
   return k_names[static_cast<std::size_t>(quantity)];
 }
 
@@ -100,7 +101,8 @@ BlockMoments block_moments(const Method& method, const Scene& scene, const Rende
                            const BlockOptions& options) {
   BlockMoments result;
   const Resolution resolution = scene.camera().resolution();
-  const auto add = [&](Quantity quantity, const std::function<Rgb(Pixel)>& value, const std::function<bool(Pixel)>& counts) {
+  const auto add = [&](Quantity quantity, const std::function<Rgb(Pixel)>& value,
+                       const std::function<bool(Pixel)>& counts) {
     const std::vector<double> means = block_means(resolution, options.block, value, counts);
     std::vector<Moments>& blocks = result.blocks[quantity];
     blocks.resize(means.size());
@@ -117,24 +119,39 @@ BlockMoments block_moments(const Method& method, const Scene& scene, const Rende
 
     const auto always = [](Pixel) { return true; };
     const RgbImage primal = film.primal();
-    add(Quantity::image, [&](Pixel p) { return primal[p]; }, always);
+    add(
+        Quantity::image, [&](Pixel p) { return primal[p]; }, always);
     RgbImage both(resolution);
     for (int i = 0; i < k_part_count; ++i) {
       const RgbImage part = film.part(static_cast<Part>(i));
-      add(static_cast<Quantity>(i + 1), [&](Pixel p) { return part[p]; }, always);
+      add(
+          static_cast<Quantity>(i + 1), [&](Pixel p) { return part[p]; }, always);
       if (i == static_cast<int>(Part::vpl) || i == static_cast<int>(Part::compensation))
         for (std::size_t k = 0; k < both.size(); ++k) both[k] += part[k];
     }
-    add(Quantity::vpl_and_compensation, [&](Pixel p) { return both[p]; }, always);
+    add(
+        Quantity::vpl_and_compensation, [&](Pixel p) { return both[p]; }, always);
     const auto inside = [&](Pixel step) { return [=](Pixel p) { return resolution.contains(p + step); }; };
     if (integrator->traits().gradients) {
       MomentImage dx = film.half(0).dx, dy = film.half(0).dy;
       dx.merge(film.half(1).dx), dy.merge(film.half(1).dy);
-      add(Quantity::dx, [&](Pixel p) { return dx.mean(p); }, inside({1, 0}));
-      add(Quantity::dy, [&](Pixel p) { return dy.mean(p); }, inside({0, 1}));
+      add(
+          Quantity::dx, [&](Pixel p) { return dx.mean(p); }, inside({1, 0}));
+      add(
+          Quantity::dy, [&](Pixel p) { return dy.mean(p); }, inside({0, 1}));
     } else {
-      add(Quantity::dx, [&](Pixel p) { return primal[p + Pixel{1, 0}] - primal[p]; }, inside({1, 0}));
-      add(Quantity::dy, [&](Pixel p) { return primal[p + Pixel{0, 1}] - primal[p]; }, inside({0, 1}));
+      add(
+          Quantity::dx,
+          [&](Pixel p) {
+            return primal[p + Pixel{1, 0}] - primal[p];
+          },
+          inside({1, 0}));
+      add(
+          Quantity::dy,
+          [&](Pixel p) {
+            return primal[p + Pixel{0, 1}] - primal[p];
+          },
+          inside({0, 1}));
     }
   }
   return result;

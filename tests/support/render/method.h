@@ -14,7 +14,8 @@ namespace gradslc {
 
 using ParameterValue = std::variant<bool, double, std::string>;
 
-/// A method of the registry; keys of nested objects are joined by '/'. Unknown keys and values are an assertion failure.
+/// A method of the registry; keys of nested objects are joined by '/'. Unknown keys and values are an assertion
+/// failure.
 struct Method {
   std::string label, integrator;
   std::map<std::string, ParameterValue> parameters;

@@ -77,12 +77,13 @@ Scene test_box(Resolution resolution, const TestBox& options) {
   const auto wall = [&](Point3 corner, Vec3 u, Vec3 v, std::uint32_t material) {
     d.meshes.push_back(quad(scaled(corner, s), s * u, s * v, material));
   };
-  wall({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);                            // floor
-  wall({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white);                             // ceiling
-  wall({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, options.mirror ? mirror : white);   // back
-  wall({-1, -1, -1}, {0, 2, 0}, {0, 0, 2}, red);                              // left
-  wall({1, -1, -1}, {0, 0, 2}, {0, 2, 0}, green);                             // right
-  d.meshes.push_back(outward_box(scaled({-0.6f, -1, 0.1f}, s), scaled({0, 0.1f, 0.6f}, s), options.mirror ? mirror : white));
+  wall({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);                           // floor
+  wall({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white);                            // ceiling
+  wall({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, options.mirror ? mirror : white);  // back
+  wall({-1, -1, -1}, {0, 2, 0}, {0, 0, 2}, red);                             // left
+  wall({1, -1, -1}, {0, 0, 2}, {0, 2, 0}, green);                            // right
+  d.meshes.push_back(
+      outward_box(scaled({-0.6f, -1, 0.1f}, s), scaled({0, 0.1f, 0.6f}, s), options.mirror ? mirror : white));
   d.meshes.push_back(quad(scaled({-0.3f, 0.98f, -0.3f}, s), s * Vec3{0.6f, 0, 0}, s * Vec3{0, 0, 0.6f}, black));
   d.meshes.back().area_light = 0;
   d.camera = camera_at(resolution, scaled({0, 0, -3.6f}, s), scaled({0, 0, 0}, s), 42);

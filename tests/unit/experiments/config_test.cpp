@@ -239,7 +239,7 @@ TEST_F(Config, ReportsEveryProblemWithItsPosition) {
             (folder_.path() / "test-config.json").string() +
                 ":3:39: error: /methods/0/cut_sise: unknown key; did you mean \"cut_size\"?\n"
                 "    3 |   \"methods\": [ { \"integrator\": \"slc\", \"cut_sise\": 10 } ],\n"
-                "                                              ^");
+                "      |                                       ^~~~~~~~~~");
 }
 
 TEST_F(Config, MakesWhatAMethodAsksFor) {

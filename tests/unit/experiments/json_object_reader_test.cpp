@@ -13,8 +13,8 @@
 namespace gradslc {
 namespace {
 
-using nlohmann::json;
 using fixtures::FakeIntegrator;
+using nlohmann::json;
 
 /// Reads `text` into `target` and returns what was wrong: "line:column pointer: message".
 std::vector<std::string> read(FakeIntegrator& target, const std::string& text) {

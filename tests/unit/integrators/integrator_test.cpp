@@ -100,11 +100,11 @@ TEST(Integrators, SeedsAndHalvesDiffer) {
 TEST(Integrators, FullCutIsTheSumOfAllVpls) {
   const Scene scene = test_box({16, 16}, {.mirror = true});
   const Film all = render({"", "vpl", {{"vpl/light_paths", 30.0}}}, scene, {.max_depth = 5}, 1);
-  for (const Method& method :
-       {Method{"slc", "slc", {{"vpl/light_paths", 30.0}, {"cut_size", 1000.0}}}}) {
+  for (const Method& method : {Method{"slc", "slc", {{"vpl/light_paths", 30.0}, {"cut_size", 1000.0}}}}) {
     const Film cut = render(method, scene, {.max_depth = 5}, 1);
     const RgbImage a = all.primal(), b = cut.primal();
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(luminance(a[i]), luminance(b[i]), 2e-5f * (1 + luminance(a[i])));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(luminance(a[i]), luminance(b[i]), 2e-5f * (1 + luminance(a[i])));
   }
 }
 

@@ -49,7 +49,8 @@ TEST(Connection, IsBlackBehindEitherSurfaceAndAtDistanceZero) {
 TEST(Bounding, WeightsAddUpToOne) {
   for (const float bound : {1e-3f, 0.7f, 40.0f, k_infinity})
     for (const float strength : {0.0f, 1e-4f, 0.7f, 3.0f, 1e6f})
-      EXPECT_FLOAT_EQ(bounded_weight(strength, bound) + compensation_weight(strength, bound), 1) << strength << " " << bound;
+      EXPECT_FLOAT_EQ(bounded_weight(strength, bound) + compensation_weight(strength, bound), 1)
+          << strength << " " << bound;
 }
 
 TEST(Bounding, ContributionNeverExceedsFluxTimesBound) {
