@@ -1,5 +1,7 @@
 #include "experiments/cli/output_path.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,8 +18,13 @@ void require_writable_folder(const std::filesystem::path& folder) {
   while (existing.has_relative_path() && !std::filesystem::exists(existing, ignored)) existing = existing.parent_path();
   if (!std::filesystem::is_directory(existing, ignored))
     throw_input_error(existing.string(), "is not a folder, so that nothing can be written in it");
-  if (access(existing.c_str(), W_OK | X_OK) != 0)
+  // Permissions alone do not tell: root passes them, and file systems may be read-only or hold no files of ours.
+  const std::filesystem::path probe = existing / fmt::format(".gradslc-{}.probe", getpid());
+  const int descriptor = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0)
     throw_input_error(existing.string(), std::string("folder cannot be written in: ") + std::strerror(errno));
+  close(descriptor);
+  unlink(probe.c_str());
 }
 
 void require_writable_file(const std::filesystem::path& file) {
