@@ -23,10 +23,10 @@ LobeChoice choose_lobe(const PathVertex& vertex, const LobeSelection& lobes, flo
 
 }  // namespace
 
-CameraPrefix trace_camera_prefix(PathContext& context, Vec2 film_position) {
+CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   CameraPrefix prefix;
   Rgb throughput(1);
-  Ray ray = context.scene.camera().generate_ray(film_position);
+  Ray ray = context.scene.camera().generate_ray(position);
   RayOrigin origin{.position = ray.origin};
   for (int edges = 1; edges <= context.settings.max_depth; ++edges) {
     ++context.rays;

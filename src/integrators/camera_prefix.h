@@ -12,7 +12,7 @@ struct CameraPrefix {
   Rgb throughput;                    ///< up to x, over the probability of the lobes taken
 };
 
-/// `film_position` as PerspectiveCamera::generate_ray takes it. Random numbers are those of `context`.
-CameraPrefix trace_camera_prefix(PathContext& context, Vec2 film_position);
+/// `position` as PerspectiveCamera::generate_ray takes it. Random numbers are those of `context`.
+CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position);
 
 }  // namespace gradslc

@@ -100,9 +100,7 @@ class GradientStochasticLightcuts final : public Integrator {
     cost_.prefix_rays += parallel_sum<std::uint64_t>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
       PathContext path = context(random);
       for (std::size_t i = begin; i < end; ++i) {
-        const Pixel pixel = resolution.pixel(i);
-        prefixes_[i] =
-            trace_camera_prefix(path, Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + jitter);
+        prefixes_[i] = trace_camera_prefix(path, film_position(resolution.pixel(i), jitter));
       }
       return path.rays;
     });

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "integrators/integrator.h"
+#include "integrators/pass_schedule.h"
 #include "integrators/throughput.h"
 #include "scene/scene.h"
 #include "vpl/bounding.h"
@@ -19,6 +20,19 @@ struct PathContext {
   SampleStream random;
   std::uint64_t rays = 0;  ///< counted here
 };
+
+/// A pixel's sample with random numbers of its own, as methods without groups take it: jittered within the pixel.
+struct PixelSample {
+  PathContext context;
+  Vec2 film_position;
+};
+PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings, const LobeSelection& lobes,
+                              const PassSlot& slot, std::size_t pixel_index);
+
+/// The film position at `offset` from a pixel's upper left corner.
+inline Vec2 film_position(Pixel pixel, Vec2 offset) {
+  return Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + offset;
+}
 
 /// Power heuristic with exponent 2 (Veach 1997, section 9.2.4): weight of the technique with density `pdf`, both in the
 /// same measure. Ratios first, so that large densities do not overflow.

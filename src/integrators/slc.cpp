@@ -37,8 +37,7 @@ class StochasticLightcuts final : public Integrator {
       CutSelector selector(tree, cut_size_, gather_.bound);
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        const Pixel pixel = resolution.pixel(i);
-        record(half, pixel, sample(slot, tree, selector, pixel, i, rays));
+        record(half, resolution.pixel(i), sample(slot, tree, selector, i, rays));
       }
       const std::lock_guard lock(cost_mutex);
       rays_ += rays, cost_ += selector.cost();
@@ -56,14 +55,10 @@ class StochasticLightcuts final : public Integrator {
   }
 
  private:
-  PartValues sample(const PassSlot& slot, const LightTree& tree, CutSelector& selector, Pixel pixel, std::size_t index,
+  PartValues sample(const PassSlot& slot, const LightTree& tree, CutSelector& selector, std::size_t index,
                     std::uint64_t& rays) const {
-    PathContext context{*scene_, settings_, source_.parameters().lobes(),
-                        SampleStream(settings_.sampler, derive_seed(settings_.seed, SeedPurpose::camera, slot.half),
-                                     index, slot.sample)};
-    const Vec2 jitter = context.random.get2(Use::pixel);
-    const CameraPrefix prefix =
-        trace_camera_prefix(context, Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + jitter);
+    auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+    const CameraPrefix prefix = trace_camera_prefix(context, position);
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);

@@ -1,5 +1,4 @@
 #include "core/parallel.h"
-#include "integrators/pass_schedule.h"
 #include "integrators/path.h"
 #include "integrators/record.h"
 #include "integrators/registry.h"
@@ -27,10 +26,8 @@ class PathTracer final : public Integrator {
     rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        const Pixel pixel = resolution.pixel(i);
-        record(half, pixel,
-               labelled ? sample<LabelledThroughput>(slot, pixel, i, rays)
-                        : sample<PlainThroughput>(slot, pixel, i, rays));
+        record(half, resolution.pixel(i),
+               labelled ? sample<LabelledThroughput>(slot, i, rays) : sample<PlainThroughput>(slot, i, rays));
       }
       return rays;
     });
@@ -42,15 +39,9 @@ class PathTracer final : public Integrator {
 
  private:
   template <class Throughput>
-  PartValues sample(const PassSlot& slot, Pixel pixel, std::size_t index, std::uint64_t& rays) const {
-    PathContext context{*scene_,
-                        settings_,
-                        {true, true, connectable_roughness_},
-                        SampleStream(settings_.sampler, derive_seed(settings_.seed, SeedPurpose::camera, slot.half),
-                                     index, slot.sample)};
-    const Vec2 jitter = context.random.get2(Use::pixel);
-    const Ray ray =
-        scene_->camera().generate_ray(Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + jitter);
+  PartValues sample(const PassSlot& slot, std::size_t index, std::uint64_t& rays) const {
+    auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, index);
+    const Ray ray = scene_->camera().generate_ray(position);
     PartValues radiance;
     trace_path(context, ray, {.position = ray.origin}, Throughput(), 0, settings_.max_depth, roulette_depth_, radiance);
     rays += context.rays;

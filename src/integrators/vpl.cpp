@@ -39,8 +39,7 @@ class VplSampler final : public Integrator {
     rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 64, [&](std::size_t begin, std::size_t end) {
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        const Pixel pixel = resolution.pixel(i);
-        record(half, pixel, sample(slot, vpls, pixel, i, rays));
+        record(half, resolution.pixel(i), sample(slot, vpls, i, rays));
       }
       return rays;
     });
@@ -55,14 +54,9 @@ class VplSampler final : public Integrator {
   }
 
  private:
-  PartValues sample(const PassSlot& slot, const std::vector<Vpl>& vpls, Pixel pixel, std::size_t index,
-                    std::uint64_t& rays) const {
-    PathContext context{*scene_, settings_, source_.parameters().lobes(),
-                        SampleStream(settings_.sampler, derive_seed(settings_.seed, SeedPurpose::camera, slot.half),
-                                     index, slot.sample)};
-    const Vec2 jitter = context.random.get2(Use::pixel);
-    const CameraPrefix prefix =
-        trace_camera_prefix(context, Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + jitter);
+  PartValues sample(const PassSlot& slot, const std::vector<Vpl>& vpls, std::size_t index, std::uint64_t& rays) const {
+    auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+    const CameraPrefix prefix = trace_camera_prefix(context, position);
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);
