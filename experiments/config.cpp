@@ -190,7 +190,7 @@ std::optional<std::filesystem::path> ConfigReader::existing_file(JsonObjectReade
     reader.problem(name, expanded.error);
     return std::nullopt;
   }
-  const std::filesystem::path path = std::filesystem::absolute(file_.parent_path() / expanded.text).lexically_normal();
+  std::filesystem::path path = std::filesystem::absolute(file_.parent_path() / expanded.text).lexically_normal();
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
   if (!std::filesystem::exists(status))

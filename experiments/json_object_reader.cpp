@@ -140,6 +140,7 @@ std::vector<std::string> JsonObjectReader::elements(std::string_view name) {
   }
   const std::string pointer = join_pointer(levels_.back().pointer, name);
   std::vector<std::string> pointers;
+  pointers.reserve(given->size());
   for (std::size_t i = 0; i < given->size(); ++i) pointers.push_back(join_pointer(pointer, i));
   return pointers;
 }

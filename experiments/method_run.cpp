@@ -19,7 +19,7 @@ constexpr std::size_t k_recent_passes = 8;  // that the next pass's time is pred
 std::vector<double> curve_targets(const Budget& budget) {
   std::vector<double> targets;
   if (budget.kind == Budget::Kind::spp) {
-    for (double passes = 1; passes < budget.value; passes *= 2) targets.push_back(passes);
+    for (int k = 0; std::ldexp(1.0, k) < budget.value; ++k) targets.push_back(std::ldexp(1.0, k));
   } else {
     for (int k = k_halvings; k > 0; --k) targets.push_back(std::ldexp(budget.value, -k));
   }

@@ -44,6 +44,7 @@ std::vector<SceneRows> group(std::span<const ResultRow> rows) {
 template <class Value>
 Estimate estimate_over(const std::vector<const ResultRow*>& rows, const Value& value) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const ResultRow* row : rows) values.push_back(value(*row));
   return estimate_mean(values);
 }
@@ -168,6 +169,7 @@ std::vector<std::string> verdict(const SceneSummary& summary) {
   measures.push_back({"Without the worst 0.1 % of the pixels (relmse_trimmed x seconds)",
                       &MethodSummary::Errors::inefficiency_trimmed});
   std::vector<std::string> sentences;
+  sentences.reserve(measures.size());
   for (const Measure& measure : measures) sentences.push_back(sentence(summary, measure));
   for (const MethodSummary& method : summary.methods) {
     for (const FlagEntry& flag : flag_registry()) {

@@ -14,7 +14,7 @@ using Cell = std::function<std::string(const MethodSummary&)>;
 
 std::string factor_cell(const std::optional<Factor>& factor, bool is_first, bool has_interval, Markup markup) {
   if (!factor) return "unknown";
-  const std::string value = format_number(factor->value, markup);
+  std::string value = format_number(factor->value, markup);
   if (is_first || !has_interval) return value;
   return value + (factor->significant ? "" : " (n.s.)");
 }

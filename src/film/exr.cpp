@@ -29,20 +29,22 @@ void use_all_threads() {
 }
 
 /// A slice whose pixel `origin` is at `first`; rows follow each other without gaps.
-Imf::Slice float_slice(const float* first, std::size_t floats_per_pixel, Imath::V2i origin, std::size_t width) {
+Imf::Slice float_slice(const float* first, std::size_t floats_per_pixel, const Imath::V2i& origin, std::size_t width) {
   const std::size_t pixel_bytes = floats_per_pixel * sizeof(float);
   return Imf::Slice::Make(Imf::FLOAT, first, origin, static_cast<int64_t>(width), 1, pixel_bytes, pixel_bytes * width);
 }
 
 /// Names the channels of a layer and the memory that OpenEXR writes them from or reads them to.
-void insert_slices(const std::string& layer, const RgbImage& image, Imath::V2i origin, Imf::FrameBuffer& buffer) {
+void insert_slices(const std::string& layer, const RgbImage& image, const Imath::V2i& origin,
+                   Imf::FrameBuffer& buffer) {
   const std::string prefix = layer.empty() ? "" : layer + ".";
   const auto width = static_cast<std::size_t>(image.width());
   buffer.insert(prefix + "R", float_slice(&image[0].r, 3, origin, width));
   buffer.insert(prefix + "G", float_slice(&image[0].g, 3, origin, width));
   buffer.insert(prefix + "B", float_slice(&image[0].b, 3, origin, width));
 }
-void insert_slices(const std::string& layer, const Image<float>& image, Imath::V2i origin, Imf::FrameBuffer& buffer) {
+void insert_slices(const std::string& layer, const Image<float>& image, const Imath::V2i& origin,
+                   Imf::FrameBuffer& buffer) {
   buffer.insert(layer + ".Y", float_slice(&image[0], 1, origin, static_cast<std::size_t>(image.width())));
 }
 

@@ -31,6 +31,7 @@ class VplSampler final : public Integrator {
     const std::vector<Vpl>& vpls = source_.vpls_of(slot).vpls;
     if (selection_ == Selection::power) {
       std::vector<double> weights;
+      weights.reserve(vpls.size());
       for (const Vpl& vpl : vpls) weights.push_back(static_cast<double>(luminance(vpl.reflected_flux)));
       by_power_ = DiscreteDistribution(weights);
     }

@@ -16,13 +16,14 @@ namespace {
 constexpr int k_max_include_depth = 16;
 constexpr std::size_t k_max_documents = 10000;  // a file that includes twice what includes twice ... ends somewhere
 constexpr int k_max_element_depth = 64;
-constexpr std::size_t k_max_value =
-    65536;  // characters after substitution: defaults made of defaults grow exponentially
+/// Characters of a value after substitution: defaults made of defaults grow exponentially.
+constexpr std::size_t k_max_value = 65536;
 
 bool is_identifier_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 std::vector<std::string> keys(const auto& map) {
   std::vector<std::string> names;
+  names.reserve(map.size());
   for (const auto& [name, value] : map) names.push_back(name);
   return names;
 }
