@@ -164,6 +164,34 @@ TEST(Integrators, ShallowDepthsOfEveryMethod) {
     }
 }
 
+// Behind a mirror x has two camera edges: a VPL of the first bounce makes four. Such light is there at depth 4, not
+// at 3.
+TEST(Integrators, VplsBeyondTheDepthLimitAreLeftOut) {
+  const Scene scene = test_box({16, 16}, {.mirror = true});
+  Image<char> sees_mirror(scene.camera().resolution(), 0);
+  for (std::size_t i = 0; i < sees_mirror.size(); ++i) {
+    const Pixel pixel = scene.camera().resolution().pixel(i);
+    bool all = true;  // corners of the pixel: whatever the jitter, a mirror is seen first
+    for (const Vec2 corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
+      const Vec2 position = Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + corner;
+      const auto hit = scene.intersect(scene.camera().generate_ray(position));
+      all = all && hit && std::holds_alternative<ConductorMaterial>(scene.material(*hit).kind);
+    }
+    sees_mirror[i] = all;
+  }
+  for (const Method& method : every_method()) {
+    if (method.integrator == "spt") continue;
+    float at_depth[5] = {};
+    for (const int max_depth : {3, 4}) {
+      const RgbImage vpl = render(method, scene, {.max_depth = max_depth}, 2).part(Part::vpl);
+      for (std::size_t i = 0; i < vpl.size(); ++i)
+        if (sees_mirror[i]) at_depth[max_depth] += luminance(vpl[i]);
+    }
+    EXPECT_EQ(at_depth[3], 0) << method.label;
+    EXPECT_GT(at_depth[4], 0) << method.label;
+  }
+}
+
 TEST(Integrators, TraitsSayWhatIsBiasedOrTruncated) {
   const Scene scene = test_box({4, 4});
   const auto traits = [&](std::map<std::string, ParameterValue> parameters) {
