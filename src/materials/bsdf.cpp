@@ -1,69 +1,152 @@
 #include "materials/bsdf.h"
 
+#include <algorithm>
+
 namespace gradslc {
 namespace {
 
-constexpr bool is_delta(const Bsdf::Lobe& lobe) { return std::holds_alternative<Conductor>(lobe); }
-
-float roughness(const Bsdf::Lobe& lobe) {
-  return std::visit([](const auto& l) { return l.roughness(); }, lobe);
+float roughness(const Bsdf::Entry& entry) {
+  return std::visit([](const auto& lobe) { return lobe.roughness(); }, entry.lobe);
 }
 
-Vec3 flip_side(Vec3 w) { return {w.x, w.y, -w.z}; }
+float energy_of(const Bsdf::Entry& entry, Vec3 known) {
+  return max_channel(entry.weight * std::visit([&](const auto& lobe) { return lobe.energy(known); }, entry.lobe));
+}
+
+/// `function` of a lobe that has a density; `otherwise` for delta lobes.
+template <class Result, class Function>
+Result unless_delta(const Bsdf::Entry& entry, Result otherwise, const Function& function) {
+  return std::visit(
+      [&](const auto& lobe) {
+        if constexpr (std::decay_t<decltype(lobe)>::k_delta)
+          return otherwise;
+        else
+          return function(lobe);
+      },
+      entry.lobe);
+}
+
+/// The selected lobes and the energies that they are chosen by.
+struct Choice {
+  float energies[Bsdf::k_max_lobes] = {};
+  float total = 0;
+
+  template <class Entries>
+  Choice(const Entries& entries, Vec3 known, const LobeSelection& lobes) {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (lobes.includes(roughness(entries[i]))) total += energies[i] = energy_of(entries[i], known);
+  }
+};
 
 }  // namespace
 
-Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
-  if (is_delta(lobe_) || !lobes.includes(roughness(lobe_))) return Rgb();
-  if (two_sided_ && wo.z < 0) wo = flip_side(wo), wi = flip_side(wi);
-  return std::get<Diffuse>(lobe_).eval(wo, wi);
+void Bsdf::add(const Bsdf& other, Rgb weight) {
+  for (const Entry& entry : other.entries_) entries_.push_back({entry.lobe, entry.weight * weight});
 }
 
-std::optional<BsdfSample> Bsdf::sample(Vec3 wo, float /*u_lobe*/, Vec2 u, const LobeSelection& lobes) const {
-  if (!lobes.includes(roughness(lobe_))) return std::nullopt;
-  const bool flipped = two_sided_ && wo.z < 0;
-  if (flipped) wo = flip_side(wo);
-  std::optional<BsdfSample> sample;
-  if (const auto* diffuse = std::get_if<Diffuse>(&lobe_))
-    sample = diffuse->sample(wo, u);
-  else
-    sample = std::get<Conductor>(lobe_).sample(wo);
-  if (sample && flipped) sample->wi = flip_side(sample->wi);
+Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
+  Rgb sum;
+  for (const Entry& entry : entries_)
+    if (lobes.includes(roughness(entry)))
+      sum += entry.weight * unless_delta(entry, Rgb(), [&](const auto& lobe) { return lobe.eval(wo, wi); });
+  return sum;
+}
+
+std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+                                       Transport transport) const {
+  const Choice choice(entries_, known, lobes);
+  if (choice.total == 0) return std::nullopt;
+  std::size_t chosen = 0;
+  float below = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (choice.energies[i] == 0) continue;
+    chosen = i;
+    if (u_lobe * choice.total < below + choice.energies[i]) break;
+    below += choice.energies[i];
+  }
+  const Entry& entry = entries_[chosen];
+  const float u_choice =
+      std::clamp((u_lobe * choice.total - below) / choice.energies[chosen], 0.0f, k_one_minus_epsilon);
+  auto sample = std::visit([&](const auto& lobe) { return lobe.sample(known, u_choice, u, transport); }, entry.lobe);
+  if (!sample) return std::nullopt;
+  if (choice.energies[chosen] == choice.total) {  // nothing to choose from
+    sample->weight *= entry.weight;
+    return sample;
+  }
+  if (sample->delta) {
+    const float probability = choice.energies[chosen] / choice.total;
+    sample->weight *= entry.weight / probability;
+    sample->pdf_solid_angle *= probability;
+    return sample;
+  }
+  const Vec3 w = sample->direction;
+  sample->pdf_solid_angle = pdf_solid_angle(known, w, lobes);
+  if (!(sample->pdf_solid_angle > 0)) return std::nullopt;
+  const Rgb f = transport == Transport::radiance ? eval(known, w, lobes) : eval(w, known, lobes);
+  sample->weight = f * (std::abs(w.z) / sample->pdf_solid_angle);
   return sample;
 }
 
-float Bsdf::pdf_solid_angle(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
-  if (is_delta(lobe_) || !lobes.includes(roughness(lobe_))) return 0;
-  if (two_sided_ && wo.z < 0) wo = flip_side(wo), wi = flip_side(wi);
-  return std::get<Diffuse>(lobe_).pdf_solid_angle(wo, wi);
+float Bsdf::pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const {
+  const Choice choice(entries_, known, lobes);
+  if (choice.total == 0) return 0;
+  float sum = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (choice.energies[i] > 0)
+      sum += choice.energies[i] *
+             unless_delta(entries_[i], 0.0f, [&](const auto& lobe) { return lobe.pdf_solid_angle(known, w); });
+  return sum / choice.total;
 }
 
-float Bsdf::energy(Vec3 wo, const LobeSelection& lobes) const {
-  if (!lobes.includes(roughness(lobe_))) return 0;
-  if (two_sided_ && wo.z < 0) wo = flip_side(wo);
-  if (wo.z <= 0) return 0;
-  if (const auto* diffuse = std::get_if<Diffuse>(&lobe_)) return max_channel(diffuse->albedo);
-  return max_channel(std::get<Conductor>(lobe_).fresnel(wo.z));
+float Bsdf::energy(Vec3 known, const LobeSelection& lobes) const { return Choice(entries_, known, lobes).total; }
+
+ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) const {
+  ReflectionBound sum;
+  for (const Entry& entry : entries_) {
+    if (!lobes.is_connectable(roughness(entry))) continue;
+    const ReflectionBound bound =
+        unless_delta(entry, ReflectionBound(), [&](const auto& lobe) { return lobe.reflection_bound(known); });
+    const float weight = max_channel(entry.weight);
+    sum += {weight * bound.cosine, weight * bound.constant};
+  }
+  return sum;
+}
+
+float Bsdf::max_connectable_pi_f(Vec3 known, const LobeSelection& lobes) const {
+  float sum = 0;
+  for (const Entry& entry : entries_)
+    if (lobes.is_connectable(roughness(entry)))
+      sum +=
+          max_channel(entry.weight) * unless_delta(entry, 0.0f, [&](const auto& lobe) { return lobe.max_pi_f(known); });
+  return sum;
 }
 
 bool Bsdf::has(const LobeSelection& lobes) const {
-  if (!lobes.includes(roughness(lobe_))) return false;
-  return !is_black(albedo());
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    if (!lobes.includes(roughness(entry))) return false;
+    return !is_black(entry.weight * std::visit([](const auto& lobe) { return lobe.feature_albedo(); }, entry.lobe));
+  });
+}
+
+bool Bsdf::transmits(const LobeSelection& lobes) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return lobes.includes(roughness(entry)) &&
+           std::visit([](const auto& lobe) { return lobe.k_transmits; }, entry.lobe);
+  });
+}
+
+bool Bsdf::is_lambert(const LobeSelection& lobes) const {
+  int others = 0, lamberts = 0;
+  for (const Entry& entry : entries_)
+    if (lobes.is_connectable(roughness(entry))) ++(std::holds_alternative<Lambert>(entry.lobe) ? lamberts : others);
+  return others == 0 && lamberts <= 1;
 }
 
 Rgb Bsdf::albedo() const {
-  if (const auto* diffuse = std::get_if<Diffuse>(&lobe_)) return diffuse->albedo;
-  return std::get<Conductor>(lobe_).specular_reflectance;
-}
-
-Rgb Bsdf::lambert_albedo() const {
-  if (const auto* diffuse = std::get_if<Diffuse>(&lobe_)) return diffuse->albedo;
-  return Rgb();
-}
-
-float Bsdf::max_connectable_albedo(const LobeSelection& lobes) const {
-  if (!lobes.connectable || !lobes.is_connectable(roughness(lobe_))) return 0;
-  return max_channel(lambert_albedo());
+  Rgb sum;
+  for (const Entry& entry : entries_)
+    sum += entry.weight * std::visit([](const auto& lobe) { return lobe.feature_albedo(); }, entry.lobe);
+  return sum;
 }
 
 }  // namespace gradslc

@@ -1,47 +1,74 @@
 #pragma once
 
-#include <cstdint>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <variant>
 
 #include "core/rgb.h"
 #include "core/vec.h"
-#include "materials/conductor.h"
-#include "materials/diffuse.h"
 #include "materials/lobes.h"
+#include "materials/lobes/lambert.h"
+#include "materials/lobes/smooth_conductor.h"
 
 namespace gradslc {
 
-/// A BSDF at one surface point, its textures looked up: a plain value. Directions are unit, in the local frame whose +z
-/// is the shading normal, and point away from the surface: `wo` towards where light goes (the camera), `wi` towards
-/// where it comes from. Every function takes the lobes that it speaks of (DESIGN 4: f = f_c + f_s).
+/// One way in which a surface scatters. Every lobe has
+///   k_delta       whether it scatters into discrete directions only,
+///   k_transmits   whether it scatters to the other side of the surface,
+///   roughness()   by which it is connectable or not,
+///   sample(known, u_choice, u, transport)  as Bsdf::sample(); u_choice in [0,1) where it chooses within itself,
+///   energy(known) approximate directional albedo per channel, 0 only where nothing is scattered, without eta^2,
+///   feature_albedo() its colour, the feature of denoisers,
+/// and, unless k_delta,
+///   eval(wo, wi), pdf_solid_angle(known, w)  as in Bsdf,
+///   reflection_bound(known)      of pi f |cos_w|,
+///   max_pi_f(known)              an upper bound of pi f over the other direction, largest channel, finite.
+using Lobe = std::variant<Lambert, SmoothConductor>;
+
+/// A BSDF at one surface point, its textures looked up: a plain value, the sum of its lobes. Directions are unit, in
+/// the local frame whose +z is the shading normal, and point away from the surface: `wo` towards where light goes (the
+/// camera), `wi` towards where it comes from. Every function takes the lobes that it speaks of (DESIGN 4:
+/// f = f_c + f_s).
 class Bsdf {
  public:
-  using Lobe = std::variant<Diffuse, Conductor>;
-  Bsdf() = default;
-  Bsdf(Lobe lobe, bool two_sided) : lobe_(lobe), two_sided_(two_sided) {}
+  static constexpr std::size_t k_max_lobes = 8;
+  struct Entry {
+    Lobe lobe;
+    Rgb weight;  ///< factor of the lobe's f
+  };
 
-  /// f, 1/sr, without the cosine; 0 for delta lobes.
+  /// At most k_max_lobes.
+  void add(const Lobe& lobe, Rgb weight = Rgb(1)) { entries_.push_back({lobe, weight}); }
+  /// All lobes of another BSDF in the same frame, each times `weight`.
+  void add(const Bsdf& other, Rgb weight);
+
+  /// f, 1/sr, without the cosine, as radiance is scattered from wi to wo; 0 for delta lobes.
   Rgb eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
-  /// A direction wi; nullopt when nothing can be sampled. `u_lobe` in [0,1) chooses among lobes.
-  std::optional<BsdfSample> sample(Vec3 wo, float u_lobe, Vec2 u, const LobeSelection& lobes) const;
+  /// A direction for a known one; nullopt when nothing can be sampled. `u_lobe` in [0,1) chooses among lobes.
+  std::optional<BsdfSample> sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+                                   Transport transport = Transport::radiance) const;
   /// Density of sample(), 1/sr; 0 for delta lobes.
-  float pdf_solid_angle(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
-  /// Approximate directional albedo of the selected lobes, largest channel, in [0,1]: what lobes are chosen by. 0 only
-  /// where the lobes reflect nothing.
-  float energy(Vec3 wo, const LobeSelection& lobes) const;
-  /// An upper bound of pi f per channel's maximum over all directions for the connectable lobes.
-  float max_connectable_albedo(const LobeSelection& lobes) const;
+  float pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const;
+  /// Approximate directional albedo of the selected lobes, largest channel: what lobes are chosen by. 0 only where the
+  /// lobes scatter nothing.
+  float energy(Vec3 known, const LobeSelection& lobes) const;
+  /// Of the connectable lobes.
+  ReflectionBound connectable_bound(Vec3 known, const LobeSelection& lobes) const;
+  /// An upper bound of pi f of the connectable lobes over the other direction, largest channel.
+  float max_connectable_pi_f(Vec3 known, const LobeSelection& lobes) const;
   /// Whether any of the selected lobes exists here, wherever light comes from.
   bool has(const LobeSelection& lobes) const;
-  /// Diffuse albedo or specular reflectance: the feature of denoisers.
+  /// Whether any of the selected lobes scatters to the other side.
+  bool transmits(const LobeSelection& lobes) const;
+  /// Whether the connectable lobes are one Lambertian lobe at most.
+  bool is_lambert(const LobeSelection& lobes) const;
+  /// Sum of the lobes' colours: the feature of denoisers.
   Rgb albedo() const;
-  /// pi f of the connectable lobe where that is Lambert: constant over directions of one side.
-  Rgb lambert_albedo() const;
+
+  const auto& entries() const { return entries_; }
 
  private:
-  Lobe lobe_;
-  bool two_sided_ = false;
+  boost::container::static_vector<Entry, k_max_lobes> entries_;
 };
 
 }  // namespace gradslc

@@ -2,40 +2,59 @@
 
 #include <span>
 #include <string>
-#include <variant>
+#include <vector>
 
+#include "core/frame.h"
 #include "materials/bsdf.h"
 #include "materials/property_reader.h"
 #include "materials/texture.h"
 
 namespace gradslc {
 
-struct DiffuseMaterial {
-  Texture reflectance;
-};
-struct ConductorMaterial {
-  Rgb eta, k;
-  Texture specular_reflectance;
+/// What a material may ask about the surface at a point.
+struct MaterialPoint {
+  Vec2 uv;
+  Vec3 dp_du, dp_dv;  ///< zero where the uvs are degenerate, or nobody needs_derivatives()
 };
 
-/// What a scene file says of a surface: a BSDF with its textures.
-struct Material {
-  std::string name;  ///< id in the scene file; may be empty
-  std::variant<DiffuseMaterial, ConductorMaterial> kind;
-  bool two_sided = false;
+/// How a surface scatters at a point: a BSDF in a frame of its own.
+struct Shading {
+  Frame frame;  ///< its n on the geometric normal's side, but where two-sided materials turn it to the other one
+  Bsdf bsdf;
+};
 
-  /// The BSDF at a point.
-  Bsdf resolve(Vec2 uv) const;
+/// What a scene file says of a surface. Immutable; all queries may run concurrently.
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  /// Adds its lobes to shading.bsdf and turns shading.frame, the surface's shading frame, where it bends normals or is
+  /// two-sided. `known`: unit, world space, the direction in which the path has come to the point.
+  virtual void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const = 0;
   /// Whether a lobe outside the connectable ones exists anywhere on it.
-  bool has_other_lobes(const LobeSelection& lobes) const;
-  /// Upper bound of the connectable lobes' albedo anywhere on it, largest channel.
-  float max_connectable_albedo(const LobeSelection& lobes) const;
+  virtual bool has_other_lobes(const LobeSelection& lobes) const = 0;
+  /// Upper bound of pi f of the connectable lobes anywhere on it for any directions, largest channel; finite.
+  virtual float max_connectable_pi_f(const LobeSelection& lobes) const = 0;
+  /// Most lobes that shade() adds.
+  virtual int max_lobes() const { return 1; }
+  /// Whether shade() needs a frame whose s follows dp/du, or the derivatives themselves.
+  virtual bool needs_derivatives() const { return false; }
+  /// Whether shade() may turn the frame in another way than to the other side.
+  virtual bool bends_normals() const { return false; }
+  /// Textures that it and what is nested in it refer to; may hold constants.
+  virtual std::vector<Texture> textures() const { return {}; }
+};
+
+/// How a material is called.
+struct MaterialName {
+  std::string id;    ///< in the scene file; may be empty
+  std::string kind;  ///< its plug-ins, outermost first: "twosided diffuse"; may be empty
 };
 
 struct BsdfEntry {
   const char* name;  ///< as in scene files
   const char* meaning;
-  Material (*make)(PropertyReader& properties);
+  MaterialPtr (*make)(PropertyReader& properties);
 };
 /// The only list of BSDF plug-ins.
 std::span<const BsdfEntry> bsdf_registry();

@@ -7,48 +7,66 @@
 
 namespace gradslc {
 
-Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<AreaLight>& lights)
-    : mesh_first_(meshes.size(), k_no_emitter) {
+Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<AreaLight>& area_lights,
+                   const std::vector<LightPtr>& lights, const BoundingSphere& scene)
+    : mesh_first_(meshes.size(), k_no_emitter), scene_(scene) {
   std::vector<double> weights;
   double power[3] = {0, 0, 0};
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const TriangleMesh& mesh = meshes[m];
     if (mesh.area_light < 0) continue;
-    const Rgb radiance = lights[static_cast<std::size_t>(mesh.area_light)].radiance;
+    const Rgb radiance = area_lights[static_cast<std::size_t>(mesh.area_light)].radiance;
     if (is_black(radiance)) continue;
     mesh_first_[m] = static_cast<std::uint32_t>(triangles_.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& [i, j, k] = mesh.triangles[t];
+    for (const auto& [i, j, k] : mesh.triangles) {
       const Point3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
       TriangleShape shape = triangle_shape(a, b, c);
       if (mesh.flip_normals) shape.normal = -shape.normal;
-      triangles_.push_back(
-          {a, b, c, shape, radiance, static_cast<std::uint32_t>(m), static_cast<std::uint32_t>(t), mesh.material});
+      triangles_.push_back({a, b, c, shape, radiance});
       const double area = triangles_.back().area();
       weights.push_back(area * std::numbers::pi * luminance(radiance));
       for (int channel = 0; channel < 3; ++channel) power[channel] += area * std::numbers::pi * radiance[channel];
     }
   }
+  for (const LightPtr& light : lights) {
+    const Rgb light_power = light->power(scene);
+    if (is_black(light_power)) continue;
+    lights_.push_back(light);
+    weights.push_back(luminance(light_power));
+    for (int channel = 0; channel < 3; ++channel) power[channel] += light_power[channel];
+  }
   by_power_ = DiscreteDistribution(weights);
   if (by_power_.total() == 0) {
-    triangles_.clear();
+    triangles_.clear(), lights_.clear();
     mesh_first_.assign(meshes.size(), k_no_emitter);
     return;
   }
   power_ = {static_cast<float>(power[0]), static_cast<float>(power[1]), static_cast<float>(power[2])};
+  for (std::size_t i = 0; i < lights_.size(); ++i)
+    if (lights_[i]->is_environment())
+      environments_.push_back({lights_[i], static_cast<float>(by_power_.probability(triangles_.size() + i))});
 }
 
 std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_select, Vec2 u) const {
   if (empty()) return std::nullopt;
-  const std::size_t index = by_power_.sample(u_select).index;
+  const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
+  if (choice.index < triangles_.size()) return sample_triangle(choice.index, reference, u);
+  auto sample = lights_[choice.index - triangles_.size()]->sample_direct(reference, u);
+  if (sample) sample->pdf_solid_angle *= static_cast<float>(choice.probability);
+  return sample;
+}
+
+std::optional<DirectSample> Emitters::sample_triangle(std::size_t index, Point3 reference, Vec2 u) const {
   const EmissiveTriangle& triangle = triangles_[index];
   const Vec2 b = square_to_triangle(u);
   const TrianglePosition point = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
   const float pdf = pdf_solid_angle(index, reference, point.position);
   if (!(pdf > 0)) return std::nullopt;
   const Vec3 to_emitter = point.position - reference;
-  return DirectSample{offset_position(point.position, triangle.shape.normal, point.error, -to_emitter),
-                      normalize(to_emitter), triangle.radiance, pdf};
+  return DirectSample{.wi = normalize(to_emitter),
+                      .radiance = triangle.radiance,
+                      .pdf_solid_angle = pdf,
+                      .position = offset_position(point.position, triangle.shape.normal, point.error, -to_emitter)};
 }
 
 float Emitters::pdf_direct(Point3 reference, const SurfacePoint& hit) const {
@@ -64,16 +82,22 @@ Rgb Emitters::radiance(const SurfacePoint& hit, Vec3 wo) const {
 EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_direction) const {
   assert(!empty());
   const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
-  const EmissiveTriangle& triangle = triangles_[choice.index];
+  EmissionSample sample =
+      choice.index < triangles_.size()
+          ? sample_triangle_emission(choice.index, u_point, u_direction)
+          : lights_[choice.index - triangles_.size()]->sample_emission(u_point, u_direction, scene_);
+  sample.power *= static_cast<float>(1 / choice.probability);
+  return sample;
+}
+
+EmissionSample Emitters::sample_triangle_emission(std::size_t index, Vec2 u_point, Vec2 u_direction) const {
+  const EmissiveTriangle& triangle = triangles_[index];
   const Vec2 b = square_to_triangle(u_point);
   const auto [position, error] = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
-  const Frame frame = frame_from_normal(triangle.shape.normal);
-  const Vec3 direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
-  // Le cos / (probability / area * cos / pi)
-  const auto flux = static_cast<float>(std::numbers::pi * triangle.area() / choice.probability);
-  return {{position, triangle.shape.normal, frame, b, triangle.mesh, triangle.triangle, triangle.material, error},
-          direction,
-          flux * triangle.radiance};
+  const Vec3 direction = frame_from_normal(triangle.shape.normal).to_world(square_to_cosine_hemisphere(u_direction));
+  // Le cos / (1 / area * cos / pi)
+  const auto flux = static_cast<float>(std::numbers::pi * triangle.area());
+  return {{offset_position(position, triangle.shape.normal, error, direction), direction}, flux * triangle.radiance};
 }
 
 std::size_t Emitters::find(const SurfacePoint& hit) const {

@@ -37,14 +37,14 @@ Vec2 interpolate_uv(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>
   return (1 - b1 - b2) * mesh.uvs[t[0]] + b1 * mesh.uvs[t[1]] + b2 * mesh.uvs[t[2]];
 }
 
-/// dp/du of a triangle (any length), zero where the uvs are degenerate.
-Vec3 tangent_from_uvs(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+/// dp/du and dp/dv of a triangle, zero where the uvs are degenerate.
+MaterialPoint with_derivatives(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, Vec2 uv) {
   const Vec3 ab = mesh.positions[t[1]] - mesh.positions[t[0]], ac = mesh.positions[t[2]] - mesh.positions[t[0]];
-  if (mesh.uvs.empty()) return ab;
+  if (mesh.uvs.empty()) return {uv, ab, ac};
   const Vec2 uv_ab = mesh.uvs[t[1]] - mesh.uvs[t[0]], uv_ac = mesh.uvs[t[2]] - mesh.uvs[t[0]];
   const float determinant = uv_ab.x * uv_ac.y - uv_ab.y * uv_ac.x;
-  const Vec3 tangent = uv_ac.y * ab - uv_ab.y * ac;
-  return determinant < 0 ? -tangent : determinant > 0 ? tangent : Vec3();
+  if (determinant == 0) return {uv, Vec3(), Vec3()};
+  return {uv, (uv_ac.y * ab - uv_ab.y * ac) / determinant, (uv_ab.x * ac - uv_ac.x * ab) / determinant};
 }
 
 /// The interpolated normal on the side of the geometric one; that one itself where there is none.
@@ -138,7 +138,9 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     bounds_.extend(mesh.bounds());
   }
   for (const TriangleMesh& mesh : description_.meshes) shapes_.push_back(triangle_shapes(mesh));
-  emitters_ = Emitters(description_.meshes, description_.area_lights);
+  for (const MaterialPtr& material : description_.materials)
+    needs_derivatives_.push_back(material->needs_derivatives());
+  emitters_ = Emitters(description_.meshes, description_.area_lights, description_.lights, bounding_sphere());
   embree_ = std::make_unique<Embree>(description_.meshes);
 }
 
@@ -162,15 +164,28 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   const TriangleShape& shape = shapes_[hit.hit.geomID][hit.hit.primID];
   const Normal3 normal = shape.normal;
   const auto [position, error] = triangle_position(a, b, c, shape, b1, b2);
-  const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
   return SurfacePoint{position,
                       normal,
-                      frame_from_normal_and_tangent(shading, tangent_from_uvs(mesh, t)),
+                      shading_normal(mesh, t, b1, b2, normal),
                       interpolate_uv(mesh, t, b1, b2),
                       hit.hit.geomID,
                       hit.hit.primID,
                       mesh.material,
                       error};
+}
+
+ShadedPoint Scene::shade(const SurfacePoint& point, Vec3 wo) const {
+  Shading shading;
+  MaterialPoint at{point.uv, Vec3(), Vec3()};
+  if (needs_derivatives_[point.material]) {
+    const TriangleMesh& mesh = description_.meshes[point.mesh];
+    at = with_derivatives(mesh, mesh.triangles[point.triangle], point.uv);
+    shading.frame = frame_from_normal_and_tangent(point.shading_normal, at.dp_du);
+  } else {
+    shading.frame = frame_from_normal(point.shading_normal);
+  }
+  description_.materials[point.material]->shade(at, wo, shading);
+  return {point, shading.frame, shading.bsdf, shading.frame.to_local(wo)};
 }
 
 bool Scene::occluded(const Ray& ray) const {
@@ -179,6 +194,11 @@ bool Scene::occluded(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcOccluded1(embree_->scene.get(), &context, &shadow);
   return shadow.tfar < 0;
+}
+
+BoundingSphere Scene::bounding_sphere() const {
+  if (bounds_.empty()) return {Point3(), 0};
+  return {bounds_.centre(), 0.5f * length(bounds_.diagonal())};
 }
 
 std::size_t Scene::triangle_count() const {

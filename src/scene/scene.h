@@ -20,9 +20,10 @@ namespace gradslc {
 /// What a loader makes of a scene file.
 struct SceneDescription {
   std::vector<TriangleMesh> meshes;
-  std::vector<Material> materials;
-  std::vector<std::string> material_kinds;  ///< plug-ins of each material ("twosided diffuse"); may be left empty
+  std::vector<MaterialPtr> materials;
+  std::vector<MaterialName> material_names;  ///< of each material; may be left empty
   std::vector<AreaLight> area_lights;
+  std::vector<LightPtr> lights;  ///< all others
   PerspectiveCamera camera;
   std::vector<std::string> notes;  ///< what the file asks for that has no effect here, once each
 };
@@ -38,17 +39,20 @@ class Scene {
 
   /// The nearest hit, whatever side of the surface.
   std::optional<SurfacePoint> intersect(const Ray& ray) const;
+  /// What scattering at a point needs; `wo`: unit, world space, towards where the path has come from.
+  ShadedPoint shade(const SurfacePoint& point, Vec3 wo) const;
   /// Whether anything lies on the ray before its max_distance.
   bool occluded(const Ray& ray) const;
 
   const PerspectiveCamera& camera() const { return description_.camera; }
   const Emitters& emitters() const { return emitters_; }
   const std::vector<TriangleMesh>& meshes() const { return description_.meshes; }
-  const std::vector<Material>& materials() const { return description_.materials; }
-  const std::vector<std::string>& material_kinds() const { return description_.material_kinds; }
-  const Material& material(const SurfacePoint& point) const { return description_.materials[point.material]; }
+  const std::vector<MaterialPtr>& materials() const { return description_.materials; }
+  const std::vector<MaterialName>& material_names() const { return description_.material_names; }
+  const std::vector<LightPtr>& lights() const { return description_.lights; }
   const std::vector<std::string>& notes() const { return description_.notes; }
   Bounds3 bounds() const { return bounds_; }
+  BoundingSphere bounding_sphere() const;
   std::size_t triangle_count() const;
   /// Bytes of meshes and acceleration structure.
   std::size_t memory_bytes() const;
@@ -57,6 +61,7 @@ class Scene {
   struct Embree;
   SceneDescription description_;
   std::vector<std::vector<TriangleShape>> shapes_;  // per mesh and triangle
+  std::vector<bool> needs_derivatives_;             // per material
   Emitters emitters_;
   Bounds3 bounds_;
   std::unique_ptr<Embree> embree_;

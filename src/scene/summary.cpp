@@ -6,8 +6,8 @@ SceneSummary summarise(const Scene& scene) {
   SceneSummary summary;
   summary.triangles = scene.triangle_count();
   summary.meshes = scene.meshes().size();
-  for (const std::string& kind : scene.material_kinds()) ++summary.materials[kind];
-  summary.emitters = scene.emitters().size();
+  for (const MaterialName& name : scene.material_names()) ++summary.materials[name.kind];
+  summary.emitters = scene.emitters().triangle_count();
   summary.emitter_power = scene.emitters().power();
   summary.bounds = scene.bounds();
   summary.memory_bytes = scene.memory_bytes();

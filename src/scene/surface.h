@@ -5,6 +5,7 @@
 #include "core/frame.h"
 #include "core/ray.h"
 #include "core/vec.h"
+#include "materials/bsdf.h"
 
 namespace gradslc {
 
@@ -14,11 +15,22 @@ constexpr std::uint32_t k_no_emitter = 0xffffffffu;
 struct SurfacePoint {
   Point3 position;
   Normal3 geometric_normal;  ///< unit; side as the file's winding or the shape's definition says, not facing the ray
-  Frame shading;             ///< its n on the same side as geometric_normal
+  Normal3 shading_normal;    ///< unit, interpolated; on the same side as geometric_normal
   Vec2 uv;
   std::uint32_t mesh = 0, triangle = 0;
   std::uint32_t material = 0;
   float error = 0;  ///< bound of the position's rounding error, scene units: how far rays must start from the surface
+};
+
+/// A surface point with what scattering there needs.
+struct ShadedPoint {
+  SurfacePoint point;
+  Frame frame;  ///< in which `bsdf` and `wo` are
+  Bsdf bsdf;
+  Vec3 wo;  ///< local, unit: the direction in which the path has come
+
+  Vec3 to_local(Vec3 v) const { return frame.to_local(v); }
+  Vec3 to_world(Vec3 v) const { return frame.to_world(v); }
 };
 
 /// `point` moved off the surface to the side of `direction`, by its error bound: where rays may start and end.

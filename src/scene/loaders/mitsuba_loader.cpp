@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "scene/loaders/loader.h"
 #include "scene/loaders/mitsuba_document.h"
+#include "scene/loaders/mitsuba_emitters.h"
 #include "scene/loaders/mitsuba_materials.h"
 #include "scene/loaders/mitsuba_properties.h"
 #include "scene/loaders/mitsuba_sensor.h"
@@ -24,7 +25,7 @@ class SceneBuilder {
     for (const XmlElement& object : document_.objects()) add(object);
     if (!has_sensor_) document_.fail(document_.root(), "the scene has no <sensor>");
     scene_.materials = materials_.take_materials();
-    scene_.material_kinds = materials_.take_kinds();
+    scene_.material_names = materials_.take_names();
     scene_.notes = document_.notes();
     return std::move(scene_);
   }
@@ -33,7 +34,8 @@ class SceneBuilder {
   void add(const XmlElement& object);
   void add_sensor(const XmlElement& sensor);
   void add_shape(const XmlElement& shape);
-  std::int32_t add_light(const XmlElement& emitter);
+  std::int32_t add_area_light(const XmlElement& emitter);
+  void add_light(const XmlElement& emitter);
 
   MitsubaDocument& document_;
   const LoadOptions& options_;
@@ -56,8 +58,7 @@ void SceneBuilder::add(const XmlElement& object) {
   } else if (tag == "emitter" && document_.attribute(object, "type") == "area") {
     if (!object.node.attribute("id")) document_.fail(object, "an area emitter must stand inside a <shape>");
   } else if (tag == "emitter") {
-    document_.unknown(object, fmt::format("unknown emitter \"{}\"; known: area", document_.attribute(object, "type")),
-                      "type");
+    add_light(object);
   } else {
     document_.unknown(object, fmt::format("unknown element <{}> in <scene>", tag));
   }
@@ -90,13 +91,13 @@ void SceneBuilder::add_shape(const XmlElement& shape) {
   mesh.material = bsdfs.empty() ? materials_.default_index() : materials_.index(bsdfs[0]);
   const std::vector<XmlElement> emitters = properties.objects("emitter");
   if (emitters.size() > 1) document_.fail(shape, fmt::format("a shape has one emitter, not {}", emitters.size()));
-  if (!emitters.empty()) mesh.area_light = add_light(emitters[0]);
+  if (!emitters.empty()) mesh.area_light = add_area_light(emitters[0]);
   properties.finish();
   scene_.meshes.push_back(std::move(mesh));
 }
 
 /// Index of the light, or -1 where it is not recognised.
-std::int32_t SceneBuilder::add_light(const XmlElement& emitter) {
+std::int32_t SceneBuilder::add_area_light(const XmlElement& emitter) {
   MitsubaProperties properties(document_, emitter);
   if (properties.plugin() != "area") {
     document_.unknown(emitter, fmt::format("unknown emitter \"{}\" in a shape; known: area", properties.plugin()),
@@ -109,6 +110,23 @@ std::int32_t SceneBuilder::add_light(const XmlElement& emitter) {
   properties.finish();
   scene_.area_lights.push_back({radiance});
   return static_cast<std::int32_t>(scene_.area_lights.size() - 1);
+}
+
+void SceneBuilder::add_light(const XmlElement& emitter) {
+  MitsubaProperties properties(document_, emitter);
+  const auto registry = light_registry();
+  const auto entry = std::find_if(registry.begin(), registry.end(),
+                                  [&](const LightEntry& candidate) { return properties.plugin() == candidate.name; });
+  if (entry == registry.end()) {
+    std::vector<std::string> names{"area"};
+    for (const LightEntry& candidate : registry) names.emplace_back(candidate.name);
+    return document_.unknown(
+        emitter, fmt::format("unknown emitter \"{}\"{}", properties.plugin(), suggestion(properties.plugin(), names)),
+        "type");
+  }
+  scene_.lights.push_back(entry->make(document_, properties));
+  properties.ignore("sampling_weight");
+  properties.finish();
 }
 
 void check_options(const std::string& file, const LoadOptions& options) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "materials/plugins.h"
 #include "scene/loaders/mitsuba_properties.h"
 
 namespace gradslc {
@@ -19,6 +20,7 @@ class MaterialPropertyReader final : public PropertyReader {
   MaterialPropertyReader(MitsubaProperties& properties, MitsubaMaterials& materials)
       : properties_(properties), materials_(materials) {}
 
+  bool has(std::string_view name) const override { return properties_.has(name); }
   bool boolean(std::string_view name, bool default_value) override { return properties_.boolean(name, default_value); }
   float real(std::string_view name, float default_value) override { return properties_.real(name, default_value); }
   std::string text(std::string_view name, std::string_view default_value) override {
@@ -26,12 +28,14 @@ class MaterialPropertyReader final : public PropertyReader {
   }
   Rgb colour(std::string_view name, Rgb default_value) override { return properties_.colour(name, default_value); }
   Texture texture(std::string_view name, Rgb default_value) override { return Texture(colour(name, default_value)); }
-  std::vector<Material> nested_materials() override {
-    std::vector<Material> nested;
+  std::vector<Texture> nested_textures() override { return {}; }
+  void ignore(std::string_view name) override { properties_.ignore(name); }
+  std::vector<MaterialPtr> nested_materials() override {
+    std::vector<MaterialPtr> nested;
     for (const XmlElement& bsdf : properties_.objects("bsdf")) {
       const MitsubaMaterials::Built& built = materials_.build(bsdf);
       nested.push_back(built.material);
-      nested_kinds_ += " " + built.kind;
+      nested_kinds_ += " " + built.name.kind;
     }
     return nested;
   }
@@ -46,9 +50,7 @@ class MaterialPropertyReader final : public PropertyReader {
   std::string nested_kinds_;  // each after a blank
 };
 
-Material grey_diffuse(std::string name) {
-  return {.name = std::move(name), .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = false};
-}
+MaterialPtr grey_diffuse() { return make_diffuse(Texture(Rgb(0.5f))); }
 
 }  // namespace
 
@@ -73,13 +75,12 @@ MitsubaMaterials::Built MitsubaMaterials::make(const XmlElement& bsdf) {
     document_.unknown(bsdf,
                       fmt::format("unknown bsdf \"{}\"{}", properties.plugin(), suggestion(properties.plugin(), names)),
                       "type", "diffuse 0.5 takes its place");
-    return {grey_diffuse(properties.id()), "unknown"};
+    return {grey_diffuse(), {properties.id(), "unknown"}};
   }
   MaterialPropertyReader reader(properties, *this);
-  Material material = entry->make(reader);
+  MaterialPtr material = entry->make(reader);
   properties.finish();
-  material.name = properties.id();
-  return {std::move(material), properties.plugin() + reader.nested_kinds()};
+  return {std::move(material), {properties.id(), properties.plugin() + reader.nested_kinds()}};
 }
 
 std::uint32_t MitsubaMaterials::index(const XmlElement& bsdf) {
@@ -88,13 +89,13 @@ std::uint32_t MitsubaMaterials::index(const XmlElement& bsdf) {
 }
 
 std::uint32_t MitsubaMaterials::default_index() {
-  if (!default_index_) default_index_ = add({grey_diffuse("default"), "diffuse"});
+  if (!default_index_) default_index_ = add({grey_diffuse(), {"default", "diffuse"}});
   return *default_index_;
 }
 
 std::uint32_t MitsubaMaterials::add(Built built) {
   materials_.push_back(std::move(built.material));
-  kinds_.push_back(std::move(built.kind));
+  names_.push_back(std::move(built.name));
   return static_cast<std::uint32_t>(materials_.size() - 1);
 }
 

@@ -19,8 +19,8 @@ class MitsubaMaterials {
   explicit MitsubaMaterials(MitsubaDocument& document) : document_(document) {}
 
   struct Built {
-    Material material;
-    std::string kind;  ///< its plug-ins, outermost first: "twosided diffuse"
+    MaterialPtr material;
+    MaterialName name;
   };
   /// Throws Error (input) where a bsdf is unknown or wrong, or contains itself.
   const Built& build(const XmlElement& bsdf);
@@ -28,9 +28,9 @@ class MitsubaMaterials {
   std::uint32_t index(const XmlElement& bsdf);
   /// Of what a shape without a bsdf is made: diffuse, reflectance 0.5.
   std::uint32_t default_index();
-  /// All materials that have an index, and their kinds.
-  std::vector<Material> take_materials() { return std::move(materials_); }
-  std::vector<std::string> take_kinds() { return std::move(kinds_); }
+  /// All materials that have an index, and their names.
+  std::vector<MaterialPtr> take_materials() { return std::move(materials_); }
+  std::vector<MaterialName> take_names() { return std::move(names_); }
 
  private:
   Built make(const XmlElement& bsdf);
@@ -40,8 +40,8 @@ class MitsubaMaterials {
   std::map<pugi::xml_node, Built> built_;
   std::set<pugi::xml_node> in_progress_;
   std::map<pugi::xml_node, std::uint32_t> indices_;
-  std::vector<Material> materials_;
-  std::vector<std::string> kinds_;
+  std::vector<MaterialPtr> materials_;
+  std::vector<MaterialName> names_;
   std::optional<std::uint32_t> default_index_;
 };
 

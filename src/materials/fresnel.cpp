@@ -1,4 +1,7 @@
-#include "materials/conductor.h"
+#include "materials/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace gradslc {
 
@@ -17,10 +20,9 @@ float fresnel_conductor(float cos_theta, float eta, float k) {
   return 0.5f * (rs + rp);
 }
 
-Rgb Conductor::fresnel(float cos_theta) const {
-  if (is_black(eta)) return specular_reflectance;
-  return specular_reflectance * Rgb(fresnel_conductor(cos_theta, eta.r, k.r), fresnel_conductor(cos_theta, eta.g, k.g),
-                                    fresnel_conductor(cos_theta, eta.b, k.b));
+Rgb fresnel_conductor(float cos_theta, Rgb eta, Rgb k) {
+  return {fresnel_conductor(cos_theta, eta.r, k.r), fresnel_conductor(cos_theta, eta.g, k.g),
+          fresnel_conductor(cos_theta, eta.b, k.b)};
 }
 
 }  // namespace gradslc

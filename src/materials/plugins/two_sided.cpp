@@ -1,0 +1,59 @@
+#include <algorithm>
+
+#include "materials/plugins.h"
+
+namespace gradslc {
+namespace {
+
+/// One BSDF in front, another (or the same one) behind, mirrored at the surface.
+class TwoSidedMaterial final : public Material {
+ public:
+  TwoSidedMaterial(MaterialPtr front, MaterialPtr back) : front_(std::move(front)), back_(std::move(back)) {}
+
+  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
+    const Vec3 n = as_vec(shading.frame.n);
+    if (dot(known, n) >= 0) {
+      front_->shade(point, known, shading);
+      return;
+    }
+    const auto mirrored = [n](Vec3 v) { return v - 2 * dot(v, n) * n; };
+    back_->shade(point, mirrored(known), shading);
+    shading.frame = {mirrored(shading.frame.s), mirrored(shading.frame.t),
+                     as_normal(mirrored(as_vec(shading.frame.n)))};
+  }
+  bool has_other_lobes(const LobeSelection& lobes) const override {
+    return front_->has_other_lobes(lobes) || back_->has_other_lobes(lobes);
+  }
+  float max_connectable_pi_f(const LobeSelection& lobes) const override {
+    return std::max(front_->max_connectable_pi_f(lobes), back_->max_connectable_pi_f(lobes));
+  }
+  int max_lobes() const override { return std::max(front_->max_lobes(), back_->max_lobes()); }
+  bool needs_derivatives() const override { return front_->needs_derivatives() || back_->needs_derivatives(); }
+  bool bends_normals() const override { return front_->bends_normals() || back_->bends_normals(); }
+  std::vector<Texture> textures() const override {
+    std::vector<Texture> textures = front_->textures();
+    if (back_ != front_) {
+      const std::vector<Texture> more = back_->textures();
+      textures.insert(textures.end(), more.begin(), more.end());
+    }
+    return textures;
+  }
+
+ private:
+  MaterialPtr front_, back_;
+};
+
+}  // namespace
+
+MaterialPtr make_two_sided(PropertyReader& properties) {
+  const std::vector<MaterialPtr> nested = properties.nested_materials();
+  if (nested.empty() || nested.size() > 2)
+    properties.fail("", "a twosided bsdf needs one bsdf inside, or two (front and back)");
+  return make_two_sided(nested.front(), nested.back());
+}
+
+MaterialPtr make_two_sided(MaterialPtr front, MaterialPtr back) {
+  return std::make_shared<TwoSidedMaterial>(std::move(front), std::move(back));
+}
+
+}  // namespace gradslc
