@@ -31,10 +31,11 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   for (int edges = 1; edges <= context.settings.max_depth; ++edges) {
     ++context.rays;
     const auto hit = context.scene.intersect(ray);
-    if (!hit) break;
     if (context.settings.components.includes(edges))
-      prefix.radiance[Part::prefix] += throughput * emitted_radiance(context, *hit, -ray.direction, origin);
-    if (edges == context.settings.max_depth) break;
+      prefix.radiance[Part::prefix] +=
+          throughput * (hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+                            : environment_radiance(context, ray.direction, origin));
+    if (!hit || edges == context.settings.max_depth) break;
 
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
     const auto index = static_cast<std::uint32_t>(edges);
@@ -55,7 +56,7 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
     if (!sample) break;
     throughput *= sample->weight;
     if (is_black(throughput)) break;
-    ray = spawn_ray(vertex.point, vertex.point.shading.to_world(sample->wi));
+    ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
     origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
   }
   return prefix;

@@ -30,12 +30,13 @@ std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receive
 
 Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree, std::span<const ChosenVpl> chosen,
                   float bound) {
-  const GatherPoint point = make_gather_point(x, context.lobes);
+  const GatherPoint point{x, context.lobes};
+  const VplView vpls{context.scene, tree.set};
   Rgb sum;
   for (const ChosenVpl& choice : chosen) {
-    const Vpl& vpl = tree.vpls[choice.vpl];
+    const Vpl& vpl = vpls[choice.vpl];
     if (!vpl_counts(context, x, vpl.vertex)) continue;
-    const Rgb contribution = unshadowed_contribution(point, vpl, bound);
+    const Rgb contribution = unshadowed_contribution(point, vpls, vpl, bound);
     if (is_black(contribution)) continue;
     ++context.rays;
     if (!context.scene.occluded(connection_segment(point, vpl))) sum += contribution * choice.inverse_probability;

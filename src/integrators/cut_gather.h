@@ -10,7 +10,7 @@
 namespace gradslc {
 
 struct ChosenVpl {
-  std::uint32_t vpl;          ///< index into LightTree::vpls
+  std::uint32_t vpl;          ///< index into the tree's set
   float inverse_probability;  ///< of its being chosen
 };
 

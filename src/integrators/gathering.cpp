@@ -10,7 +10,7 @@ namespace {
 float ray_length(Vec3 wi, Rgb f_x, const GatherSettings& gather, bool looks_for_emitters) {
   constexpr float k_margin = 1.001f;
   if (looks_for_emitters || gather.scene_has_other_lobes) return k_infinity;
-  return k_margin * compensation_reach(k_pi * max_channel(f_x), wi.z, gather.max_scene_albedo, gather.bound);
+  return k_margin * compensation_reach(k_pi * max_channel(f_x), wi.z, gather.max_pi_f, gather.bound);
 }
 
 void add_compensation(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
@@ -28,25 +28,26 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   const float u_lobe = context.random.get1(Use::compensation_lobe, index);
   const auto sample = x.bsdf.sample(x.wo, u_lobe, context.random.get2(Use::compensation, index), connectable);
   if (!sample) return;
-  const Rgb f_x = x.bsdf.eval(x.wo, sample->wi, connectable);
-  const Vec3 wi = x.point.shading.to_world(sample->wi);
-  const Ray ray = spawn_ray(x.point, wi, ray_length(sample->wi, f_x, gather, looks_for_emitters));
+  const Rgb f_x = x.bsdf.eval(x.wo, sample->direction, connectable);
+  const Vec3 wi = x.to_world(sample->direction);
+  const Ray ray = spawn_ray(x.point, wi, ray_length(sample->direction, f_x, gather, looks_for_emitters));
   ++context.rays;
   const auto hit = context.scene.intersect(ray);
-  if (!hit) return;
 
   auto throughput =
       LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
   RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
-  if (looks_for_emitters) throughput.collect(emitted_radiance(context, *hit, -wi, origin), radiance);
-  if (!goes_on) return;
+  if (looks_for_emitters)
+    throughput.collect(
+        hit ? emitted_radiance(context, *hit, -wi, origin) : environment_radiance(context, wi, origin), radiance);
+  if (!hit || !goes_on) return;
 
   const PathVertex y = make_path_vertex(context.scene, *hit, -wi, edges);
   const Compensation compensation{
-      connection_strength(k_pi * max_channel(f_x), 1, sample->wi.z, dot(wi, y.point.geometric_normal),
+      connection_strength(k_pi * max_channel(f_x), 1, sample->direction.z, dot(wi, y.point.geometric_normal),
                           distance_squared(x.point.position, y.point.position)),
       gather.compensate ? gather.bound : k_infinity};
-  const bool compensates = compensation.factor * y.bsdf.max_connectable_albedo(context.lobes) > compensation.bound;
+  const bool compensates = compensation.factor * y.bsdf.max_connectable_pi_f(y.wo, context.lobes) > compensation.bound;
   if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
   Ray next;
   if (scatter(context, y, &compensation, throughput, next, origin, radiance))
@@ -61,10 +62,10 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
   gather.compensate = parameters.bounding == Bounding::compensate;
   gather.bound = parameters.bounding == Bounding::none ? k_infinity : bound;
   gather.max_bounces = parameters.resolved_max_bounces(max_depth);
-  gather.max_scene_albedo = 0;
-  for (const Material& material : scene.materials()) {
-    gather.scene_has_other_lobes |= material.has_other_lobes(lobes);
-    gather.max_scene_albedo = std::max(gather.max_scene_albedo, material.max_connectable_albedo(lobes));
+  gather.max_pi_f = 0;
+  for (const MaterialPtr& material : scene.materials()) {
+    gather.scene_has_other_lobes |= material->has_other_lobes(lobes);
+    gather.max_pi_f = std::max(gather.max_pi_f, material->max_connectable_pi_f(lobes));
   }
   return gather;
 }

@@ -12,13 +12,9 @@ struct GatherSettings {
   bool compensate = false;   ///< what bounding takes is brought back by the ray
   int max_bounces = 1;       ///< most vertices on the light's side
   bool scene_has_other_lobes = false;
-  float max_scene_albedo = 1;  ///< upper bound of pi f_c anywhere
+  float max_pi_f = 1;  ///< upper bound of pi f_c anywhere
 };
 GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth);
-
-inline GatherPoint make_gather_point(const PathVertex& x, const LobeSelection& lobes) {
-  return {x.point, x.bsdf, x.wo, lobes};
-}
 
 /// Whether light over `bounces` vertices from x's next one counts: D = edges + 1 + k.
 inline bool vpl_counts(const PathContext& context, const PathVertex& x, std::uint32_t k) {

@@ -107,7 +107,7 @@ class GradientStochasticLightcuts final : public Integrator {
   }
 
   Receiver receiver(Pixel pixel) const {
-    return make_receiver(make_gather_point(*prefixes_[pixel].gather, source_.parameters().lobes()));
+    return make_receiver({*prefixes_[pixel].gather, source_.parameters().lobes()});
   }
 
   /// One pixel's sample with the random numbers and VPLs of a group.

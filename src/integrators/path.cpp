@@ -23,7 +23,8 @@ std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& 
 
 bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light) {
   ++context.rays;
-  return !context.scene.occluded(segment(offset_position(from, light.wi), light.position));
+  const Point3 start = offset_position(from, light.wi);
+  return !context.scene.occluded(light.infinite ? Ray{start, light.wi} : segment(start, light.position));
 }
 
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
@@ -41,7 +42,7 @@ LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angl
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
                          const Compensation* compensation) {
   if (sample.delta) return {Rgb(), sample.weight};
-  return lobe_weights(vertex, sample.wi, sample.pdf_solid_angle, lobes, compensation);
+  return lobe_weights(vertex, sample.direction, sample.pdf_solid_angle, lobes, compensation);
 }
 
 Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin) {
@@ -49,6 +50,18 @@ Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 w
   const Rgb radiance = emitters.radiance(hit, wo);
   if (is_black(radiance) || origin.emission_only_by_hit) return radiance;
   return radiance * power_heuristic(origin.pdf_solid_angle, emitters.pdf_direct(origin.position, hit));
+}
+
+Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin) {
+  Rgb sum;
+  for (const auto& [light, probability] : context.scene.emitters().environments()) {
+    const Rgb radiance = light->radiance(direction);
+    const float mis = origin.emission_only_by_hit
+                          ? 1
+                          : power_heuristic(origin.pdf_solid_angle, probability * light->pdf_direct(direction));
+    sum += radiance * mis;
+  }
+  return sum;
 }
 
 }  // namespace gradslc

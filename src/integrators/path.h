@@ -58,17 +58,12 @@ struct Compensation {
   float weight(Rgb f_y) const { return compensation_weight(factor * k_pi * max_channel(f_y), bound); }
 };
 
-/// A point of a path with what scattering there needs.
-struct PathVertex {
-  SurfacePoint point;
-  Bsdf bsdf;
-  Vec3 wo;        ///< local
+/// A point of a path.
+struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
-
-  Vec3 to_local(Vec3 v) const { return point.shading.to_local(v); }
 };
 inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, Vec3 wo, int edges) {
-  return {hit, scene.material(hit).resolve(hit.uv), hit.shading.to_local(wo), edges};
+  return {scene.shade(hit, wo), edges};
 }
 
 /// An emitter seen from a vertex: the light that arrives, over the density of the choice.
@@ -98,12 +93,15 @@ void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSe
   const float pdf = event->light.pdf_solid_angle;
   const Throughput scattered = throughput.scattered(lobe_weights(vertex, event->wi, pdf, lobes, compensation));
   if (scattered.is_black() || !is_visible(context, vertex.point, event->light)) return;
-  const float mis = power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes));
+  const float mis =
+      event->light.delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes));
   scattered.scaled(mis).collect(event->light.radiance, radiance);
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
 Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin);
+/// The same for a ray that leaves the scene in `direction`.
+Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin);
 
 /// Next-event estimation at a vertex, then a sampled direction: updates throughput, ray and origin. False: the path
 /// ends.
@@ -120,7 +118,7 @@ bool scatter(PathContext& context, const PathVertex& vertex, const Compensation*
   if (!sample) return false;
   throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
   if (throughput.is_black()) return false;
-  ray = spawn_ray(vertex.point, vertex.point.shading.to_world(sample->wi));
+  ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
   origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
   return true;
 }
@@ -144,11 +142,12 @@ void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput thro
   while (edges < max_edges) {
     ++context.rays;
     const auto hit = context.scene.intersect(ray);
-    if (!hit) return;
     ++edges;
     if (context.settings.components.includes(edges))
-      throughput.collect(emitted_radiance(context, *hit, -ray.direction, origin), radiance);
-    if (edges == max_edges) return;
+      throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+                             : environment_radiance(context, ray.direction, origin),
+                         radiance);
+    if (!hit || edges == max_edges) return;
 
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
     if (!scatter(context, vertex, nullptr, throughput, ray, origin, radiance)) return;

@@ -62,7 +62,7 @@ class StochasticLightcuts final : public Integrator {
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);
-      const Receiver receiver = make_receiver(make_gather_point(*prefix.gather, context.lobes));
+      const Receiver receiver = make_receiver({*prefix.gather, context.lobes});
       const auto chosen = selector.select({&receiver, 1}, context.random);
       radiance[Part::vpl] += prefix.throughput * gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound);
     }

@@ -28,11 +28,11 @@ class VplSampler final : public Integrator {
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
-    const std::vector<Vpl>& vpls = source_.vpls_of(slot).vpls;
+    const VplSet& set = source_.vpls_of(slot).set;
     if (selection_ == Selection::power) {
       std::vector<double> weights;
-      weights.reserve(vpls.size());
-      for (const Vpl& vpl : vpls) weights.push_back(static_cast<double>(luminance(vpl.reflected_flux)));
+      weights.reserve(set.vpls.size());
+      for (const Vpl& vpl : set.vpls) weights.push_back(static_cast<double>(luminance(vpl.flux)));
       by_power_ = DiscreteDistribution(weights);
     }
     const Resolution resolution = film.resolution();
@@ -40,7 +40,7 @@ class VplSampler final : public Integrator {
     rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 64, [&](std::size_t begin, std::size_t end) {
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        record(half, resolution.pixel(i), sample(slot, vpls, i, rays));
+        record(half, resolution.pixel(i), sample(slot, set, i, rays));
       }
       return rays;
     });
@@ -55,24 +55,24 @@ class VplSampler final : public Integrator {
   }
 
  private:
-  PartValues sample(const PassSlot& slot, const std::vector<Vpl>& vpls, std::size_t index, std::uint64_t& rays) const {
+  PartValues sample(const PassSlot& slot, const VplSet& set, std::size_t index, std::uint64_t& rays) const {
     auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
     const CameraPrefix prefix = trace_camera_prefix(context, position);
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);
-      radiance[Part::vpl] += prefix.throughput * gather_vpls(context, *prefix.gather, vpls);
+      radiance[Part::vpl] += prefix.throughput * gather_vpls(context, *prefix.gather, set);
     }
     rays += context.rays;
     return radiance;
   }
 
-  Rgb gather_vpls(PathContext& context, const PathVertex& x, const std::vector<Vpl>& vpls) const {
+  Rgb gather_vpls(PathContext& context, const PathVertex& x, const VplSet& set) const {
     Rgb sum;
+    const std::vector<Vpl>& vpls = set.vpls;
     if (vpls.empty()) return sum;
-    const GatherPoint point = make_gather_point(x, context.lobes);
     if (selection_ == Selection::all) {
-      for (const Vpl& vpl : vpls) sum += connect(context, x, point, vpl);
+      for (const Vpl& vpl : vpls) sum += connect(context, x, set, vpl);
       return sum;
     }
     if (selection_ == Selection::power && by_power_.total() == 0) return sum;
@@ -84,14 +84,15 @@ class VplSampler final : public Integrator {
         const auto drawn = by_power_.sample(u);
         chosen = drawn.index, probability = drawn.probability;
       }
-      sum += connect(context, x, point, vpls[chosen]) * static_cast<float>(1 / (probability * samples_));
+      sum += connect(context, x, set, vpls[chosen]) * static_cast<float>(1 / (probability * samples_));
     }
     return sum;
   }
 
-  Rgb connect(PathContext& context, const PathVertex& x, const GatherPoint& point, const Vpl& vpl) const {
+  Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, const Vpl& vpl) const {
     if (!vpl_counts(context, x, vpl.vertex)) return Rgb();
-    const Rgb contribution = unshadowed_contribution(point, vpl, gather_.bound);
+    const GatherPoint point{x, context.lobes};
+    const Rgb contribution = unshadowed_contribution(point, {context.scene, set}, vpl, gather_.bound);
     if (is_black(contribution)) return Rgb();
     ++context.rays;
     return context.scene.occluded(connection_segment(point, vpl)) ? Rgb() : contribution;

@@ -48,9 +48,9 @@ const LightTree& VplSource::vpls_of(const PassSlot& slot) {
   ++sets_, vpls_ += traced.vpls.size();
   const Stopwatch watch;
   if (structure_ == Structure::tree)
-    tree_ = builder_registry()[builder_].build(std::move(traced.vpls));
+    tree_ = builder_registry()[builder_].build(std::move(traced));
   else
-    tree_.vpls = std::move(traced.vpls);
+    tree_.set = std::move(traced);
   build_seconds_ += watch.seconds();
   has_set_ = true, half_ = half, set_ = slot.set;
   return tree_;

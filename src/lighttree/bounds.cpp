@@ -64,9 +64,10 @@ struct SiblingWeights {
 
 }  // namespace
 
-Receiver make_receiver(const GatherPoint& x) {
-  const float side = std::copysign(1.0f, x.wo.z);
-  return {x.point.position, as_normal(side * as_vec(x.point.shading.n)), x.bsdf.max_connectable_albedo(x.lobes)};
+Receiver make_receiver(const GatherPoint& point) {
+  const ShadedPoint& x = point.x;
+  return {x.point.position, x.frame.n, x.bsdf.connectable_bound(x.wo, point.lobes),
+          x.bsdf.transmits(point.lobes.only_connectable())};
 }
 
 ClusterTerms cluster_terms(const LightNode& node, const Receiver& r) {
@@ -74,7 +75,9 @@ ClusterTerms cluster_terms(const LightNode& node, const Receiver& r) {
   terms.min_distance2 = node.box.min_distance_squared(r.position);
   terms.max_distance2 = node.box.max_distance_squared(r.position);
   const float cos_receiver = receiver_cosine(node.box, r, std::sqrt(terms.min_distance2));
-  if (cos_receiver > 0) terms.reflectance = r.max_albedo * cos_receiver * emitter_cosine(node, r.position);
+  const float constant = cos_receiver > 0 || r.transmits ? r.bound.constant : 0;
+  const float reflected = r.bound.cosine * cos_receiver + constant;
+  if (reflected > 0) terms.reflectance = reflected * emitter_cosine(node, r.position);
   return terms;
 }
 

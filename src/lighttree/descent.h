@@ -9,7 +9,7 @@
 namespace gradslc {
 
 struct DescentSample {
-  std::uint32_t vpl;   ///< index into LightTree::vpls
+  std::uint32_t vpl;   ///< index into the tree's set
   double probability;  ///< > 0, given the start node
 };
 

@@ -33,14 +33,28 @@ Cone merge_cones(Cone a, Cone b) {
   return {axis, std::max(-1.0f, cosine - k_rounding)};
 }
 
+/// Light leaves a VPL on the side of its shading normal with the geometric normal's |cos|. Where the two normals are at
+/// an angle d, the geometric cosine is negative over the last d before the shading horizon, of size sin(d) at most: a
+/// cone of half angle 2 d around the geometric normal bounds it there.
+float leaf_cone_cosine(float cos_normals) {
+  constexpr float k_rounding = 4e-7f;  // a few ulp of 1
+  return cos_normals > 0 ? std::max(-1.0f, 2 * cos_normals * cos_normals - 1 - k_rounding) : -1;
+}
+
 }  // namespace
 
-LightNode make_leaf(const Vpl& vpl, std::uint32_t vpl_index) {
+LightNode make_leaf(const VplSet& set, std::uint32_t vpl_index) {
+  const Vpl& vpl = set.vpls[vpl_index];
   LightNode node;
   node.box.extend(vpl.position);
-  node.flux = luminance(vpl.reflected_flux);
-  node.capped_flux = vpl.max_albedo > 0 ? node.flux / vpl.max_albedo : 0;
+  const float flux = luminance(vpl.flux);
+  node.flux = vpl.is_lambert() ? flux : flux * vpl.max_pi_f;
+  node.capped_flux = !vpl.is_lambert() ? flux : vpl.max_pi_f > 0 ? flux / vpl.max_pi_f : 0;
   node.cone_axis = vpl.geometric_normal.decode();
+  if (set.transmits(vpl))
+    node.cone_cos = -1;
+  else if (vpl.shading_normal != vpl.geometric_normal)
+    node.cone_cos = leaf_cone_cosine(dot(node.cone_axis, vpl.shading_normal.decode()));
   node.left = vpl_index;
   return node;
 }

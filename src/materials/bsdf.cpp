@@ -135,11 +135,15 @@ bool Bsdf::transmits(const LobeSelection& lobes) const {
   });
 }
 
-bool Bsdf::is_lambert(const LobeSelection& lobes) const {
-  int others = 0, lamberts = 0;
-  for (const Entry& entry : entries_)
-    if (lobes.is_connectable(roughness(entry))) ++(std::holds_alternative<Lambert>(entry.lobe) ? lamberts : others);
-  return others == 0 && lamberts <= 1;
+std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) const {
+  Rgb sum;
+  for (const Entry& entry : entries_) {
+    if (!lobes.is_connectable(roughness(entry))) continue;
+    const auto* lambert = std::get_if<Lambert>(&entry.lobe);
+    if (!lambert) return std::nullopt;
+    if (known.z > 0) sum += entry.weight * lambert->albedo;
+  }
+  return sum;
 }
 
 Rgb Bsdf::albedo() const {

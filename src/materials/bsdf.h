@@ -60,8 +60,9 @@ class Bsdf {
   bool has(const LobeSelection& lobes) const;
   /// Whether any of the selected lobes scatters to the other side.
   bool transmits(const LobeSelection& lobes) const;
-  /// Whether the connectable lobes are one Lambertian lobe at most.
-  bool is_lambert(const LobeSelection& lobes) const;
+  /// pi f of the connectable lobes where that is the same for all directions on the known one's side: Lambertian
+  /// ones only. nullopt elsewhere.
+  std::optional<Rgb> lambert_albedo(Vec3 known, const LobeSelection& lobes) const;
   /// Sum of the lobes' colours: the feature of denoisers.
   Rgb albedo() const;
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/octahedral.h"
@@ -9,26 +11,49 @@
 
 namespace gradslc {
 
-/// A virtual point light (Keller 1997): the light that leaves vertex y of a light path through its connectable lobe.
+/// A virtual point light (Keller 1997): the light that leaves vertex y of a light path through its connectable lobes.
 /// 48 bytes.
 struct Vpl {
+  static constexpr std::uint32_t k_lambert = std::numeric_limits<std::uint32_t>::max();
+
   Point3 position;
-  /// pi times the flux that the particle brings times f_c(y), which is Lambert: flux times albedo. The factor
-  /// |wi.ns| / |wi.ng| of the shading normal is included (Veach 1997, section 5.3), and so is 1 / light_paths.
-  Rgb reflected_flux;
-  float max_albedo = 0;               ///< largest channel of pi f_c(y), > 0
+  /// The particle's flux; where f_c(y) is Lambert, times the albedo pi f_c(y). The factor |wi.ns| / |wi.ng| of the
+  /// shading normal is included (Veach 1997, section 5.3), and so is 1 / light_paths.
+  Rgb flux;
+  float max_pi_f = 0;  ///< Lambert: largest channel of pi f_c(y); otherwise an upper bound of it; > 0
   OctahedralNormal geometric_normal;  ///< on the side of shading_normal
-  OctahedralNormal shading_normal;    ///< on the side that reflects
+  OctahedralNormal shading_normal;    ///< Lambert: on the side that reflects
   OctahedralNormal incoming;          ///< wi: towards the vertex before it
-  float error = 0;                    ///< bound of the position's rounding error, as in SurfacePoint
-  std::uint32_t vertex = 0;           ///< k: 0 on the emitter, 1 at the first surface
+  std::uint32_t surface = k_lambert;  ///< where f_c(y) is not Lambert: index into VplSet::surfaces
+  std::uint16_t rounded_error = 0;    ///< upper half of a float that is not below SurfacePoint::error
+  std::uint16_t vertex = 0;           ///< k: 0 on the emitter, 1 at the first surface
+
+  bool is_lambert() const { return surface == k_lambert; }
+  /// Bound of the position's rounding error, as in SurfacePoint, up to 1 % larger.
+  float error() const { return std::bit_cast<float>(std::uint32_t{rounded_error} << 16); }
+  /// `error` >= 0, finite.
+  void set_error(float error) {
+    rounded_error = static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(error) + 0xffffu) >> 16);
+  }
 };
 static_assert(sizeof(Vpl) == 48);
+
+/// What evaluating f_c(y) needs where it is not Lambert. 20 bytes.
+struct VplSurface {
+  std::uint32_t material = 0;
+  Vec2 uv;
+  OctahedralNormal tangent;  ///< s of the frame whose n is the VPL's shading_normal
+  bool behind = false;       ///< the path came from behind the surface's own shading normal
+  bool transmits = false;    ///< f_c(y) scatters to both sides
+};
 
 /// All VPLs of one set of light paths, in the order of their paths.
 struct VplSet {
   std::vector<Vpl> vpls;
+  std::vector<VplSurface> surfaces;
   std::uint64_t rays = 0;  ///< traced to make it
+
+  bool transmits(const Vpl& vpl) const { return !vpl.is_lambert() && surfaces[vpl.surface].transmits; }
 };
 
 }  // namespace gradslc

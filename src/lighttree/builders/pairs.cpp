@@ -51,15 +51,15 @@ std::vector<Vpl> in_morton_order(const std::vector<Vpl>& vpls) {
 
 }  // namespace
 
-LightTree build_pairs(std::vector<Vpl> vpls) {
+LightTree build_pairs(VplSet set) {
   LightTree tree;
-  if (vpls.empty()) return tree;
-  tree.vpls = in_morton_order(vpls);
-  std::vector<Vpl>().swap(vpls);
+  tree.set = std::move(set);
+  if (tree.set.vpls.empty()) return tree;
+  tree.set.vpls = in_morton_order(tree.set.vpls);
 
   // Levels from the root down: sizes n, ceil(n/2), ..., 1 from the leaves up, the root first in memory. A node without
   // a sibling is kept once, at its lowest level, and referred to from above.
-  const std::size_t leaves = tree.vpls.size();
+  const std::size_t leaves = tree.set.vpls.size();
   const std::size_t total = 2 * leaves - 1;
   tree.nodes.resize(total);
   std::size_t level_end = total;  // nodes of the level being made fill [level_end - size, level_end)
@@ -67,7 +67,7 @@ LightTree build_pairs(std::vector<Vpl> vpls) {
   parallel_for(leaves, k_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       level[i] = static_cast<NodeIndex>(total - leaves + i);
-      tree.nodes[level[i]] = make_leaf(tree.vpls[i], static_cast<std::uint32_t>(i));
+      tree.nodes[level[i]] = make_leaf(tree.set, static_cast<std::uint32_t>(i));
     }
   });
   level_end -= leaves;

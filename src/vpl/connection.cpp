@@ -1,0 +1,49 @@
+#include "vpl/connection.h"
+
+namespace gradslc {
+namespace {
+
+/// f_c(y) towards the unit direction `wo`, world space, times pi; of a VPL that is not Lambert.
+Rgb glossy_pi_f(const VplView& vpls, const Vpl& y, Vec3 wo, const LobeSelection& lobes) {
+  const VplSurface& surface = vpls.set.surfaces[y.surface];
+  Shading shading;
+  const float side = surface.behind ? -1.0f : 1.0f;
+  vpls.scene.materials()[surface.material]->shade({surface.uv, Vec3(), Vec3()}, {0, 0, side}, shading);
+  const Frame frame = frame_from_normal_and_tangent(as_normal(y.shading_normal.decode()), surface.tangent.decode());
+  return k_pi * shading.bsdf.eval(frame.to_local(wo), frame.to_local(y.incoming.decode()), lobes.only_connectable());
+}
+
+}  // namespace
+
+Rgb unshadowed_contribution(const GatherPoint& point, const VplView& vpls, const Vpl& y, float bound) {
+  const ShadedPoint& x = point.x;
+  const Vec3 d = y.position - x.point.position;
+  const float distance2 = length_squared(d);
+  if (!(distance2 > 0)) return Rgb();
+  const Vec3 wi = d / std::sqrt(distance2);
+  if (y.is_lambert() && dot(y.shading_normal.decode(), wi) >= 0) return Rgb();
+  const Vec3 wi_local = x.to_local(wi);
+  const Rgb f_x = x.bsdf.eval(x.wo, wi_local, point.lobes.only_connectable());
+  if (is_black(f_x)) return Rgb();
+  Rgb reflected = y.flux;
+  float pi_f_y = y.max_pi_f;
+  if (!y.is_lambert()) {
+    const Rgb pi_f = glossy_pi_f(vpls, y, -wi, point.lobes);
+    reflected *= pi_f;
+    pi_f_y = max_channel(pi_f);
+    if (pi_f_y == 0) return Rgb();
+  }
+  const float cos_y = dot(y.geometric_normal.decode(), wi);
+  const float strength = connection_strength(k_pi * max_channel(f_x), pi_f_y, wi_local.z, cos_y, distance2);
+  const float geometry = std::abs(wi_local.z * cos_y) / distance2;
+  return f_x * reflected * (k_inv_pi * geometry * bounded_weight(strength, bound));
+}
+
+Ray connection_segment(const GatherPoint& point, const Vpl& y) {
+  const Vec3 d = y.position - point.x.point.position;
+  const Point3 from = offset_position(point.x.point, d);
+  const Point3 to = offset_position(y.position, as_normal(y.geometric_normal.decode()), y.error(), -d);
+  return segment(from, to);
+}
+
+}  // namespace gradslc
