@@ -8,8 +8,6 @@
 namespace gradslc {
 namespace {
 
-constexpr int k_texture_grid = 64;  // probes of a material per axis of the unit square
-
 /// Values that have no padding bytes.
 template <class T>
 void add_values(Sha256& hash, const T* values, std::size_t count) {
@@ -37,20 +35,6 @@ void add_mesh(Sha256& hash, const TriangleMesh& mesh) {
   hash.add_number(static_cast<std::uint32_t>(mesh.area_light));
 }
 
-void add_material(Sha256& hash, const Material& material) {
-  add_text(hash, material.name);
-  hash.add_number(material.kind.index());
-  hash.add_number(material.two_sided);
-  std::vector<Rgb> albedos;
-  for (int v = 0; v < k_texture_grid; ++v) {
-    for (int u = 0; u < k_texture_grid; ++u) {
-      const Vec2 uv{(static_cast<float>(u) + 0.5f) / k_texture_grid, (static_cast<float>(v) + 0.5f) / k_texture_grid};
-      albedos.push_back(material.resolve(uv).albedo());
-    }
-  }
-  add_values(hash, albedos);
-}
-
 void add_camera(Sha256& hash, const PerspectiveCamera& camera) {
   const Resolution resolution = camera.resolution();
   hash.add_number(static_cast<std::uint64_t>(resolution.width));
@@ -70,8 +54,6 @@ std::string scene_hash(const Scene& scene, const std::filesystem::path& file) {
   add_text(hash, sha256_of_file(file));
   hash.add_number(scene.meshes().size());
   for (const TriangleMesh& mesh : scene.meshes()) add_mesh(hash, mesh);
-  hash.add_number(scene.materials().size());
-  for (const Material& material : scene.materials()) add_material(hash, material);
   const Rgb power = scene.emitters().power();
   add_values(hash, &power, 1);
   add_camera(hash, scene.camera());

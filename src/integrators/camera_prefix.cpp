@@ -32,9 +32,8 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
     ++context.rays;
     const auto hit = context.scene.intersect(ray);
     if (context.settings.components.includes(edges))
-      prefix.radiance[Part::prefix] +=
-          throughput * (hit ? emitted_radiance(context, *hit, -ray.direction, origin)
-                            : environment_radiance(context, ray.direction, origin));
+      prefix.radiance[Part::prefix] += throughput * (hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+                                                         : environment_radiance(context, ray.direction, origin));
     if (!hit || edges == context.settings.max_depth) break;
 
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);

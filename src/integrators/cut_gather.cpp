@@ -31,7 +31,7 @@ std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receive
 Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree, std::span<const ChosenVpl> chosen,
                   float bound) {
   const GatherPoint point{x, context.lobes};
-  const VplView vpls{context.scene, tree.set};
+  const VplView vpls{context.scene.materials(), tree.set};
   Rgb sum;
   for (const ChosenVpl& choice : chosen) {
     const Vpl& vpl = vpls[choice.vpl];

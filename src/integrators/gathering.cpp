@@ -38,8 +38,8 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
       LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
   RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
   if (looks_for_emitters)
-    throughput.collect(
-        hit ? emitted_radiance(context, *hit, -wi, origin) : environment_radiance(context, wi, origin), radiance);
+    throughput.collect(hit ? emitted_radiance(context, *hit, -wi, origin) : environment_radiance(context, wi, origin),
+                       radiance);
   if (!hit || !goes_on) return;
 
   const PathVertex y = make_path_vertex(context.scene, *hit, -wi, edges);

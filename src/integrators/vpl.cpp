@@ -92,7 +92,7 @@ class VplSampler final : public Integrator {
   Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, const Vpl& vpl) const {
     if (!vpl_counts(context, x, vpl.vertex)) return Rgb();
     const GatherPoint point{x, context.lobes};
-    const Rgb contribution = unshadowed_contribution(point, {context.scene, set}, vpl, gather_.bound);
+    const Rgb contribution = unshadowed_contribution(point, {context.scene.materials(), set}, vpl, gather_.bound);
     if (is_black(contribution)) return Rgb();
     ++context.rays;
     return context.scene.occluded(connection_segment(point, vpl)) ? Rgb() : contribution;

@@ -11,17 +11,16 @@ namespace gradslc {
 /// What the tree knows of a gather point.
 struct Receiver {
   Point3 position;
-  Normal3 normal;         ///< shading normal on the side that lobes which reflect are lit from
-  ReflectionBound bound;  ///< of pi f_c |cos| at the receiver
+  Normal3 normal;          ///< shading normal on the side that lobes which reflect are lit from
+  ReflectionBound bound;   ///< of pi f_c |cos| at the receiver
   bool transmits = false;  ///< lit from both sides
 };
 Receiver make_receiver(const GatherPoint& point);
 
 /// A distance-free factor of a cluster's contribution, and the squared distances to its box.
 struct ClusterTerms {
-  float reflectance =
-      0;  ///< bound of pi f_c |cos| at the receiver times that of the VPLs' cosine, >= 0; 0 only where nothing of the
-          ///< cluster lights the receiver
+  float reflectance = 0;  ///< bound of pi f_c |cos| at the receiver times that of the VPLs' cosine, >= 0; 0 only where
+                          ///< nothing of the cluster lights the receiver
   float min_distance2 = 0, max_distance2 = 0;
 };
 ClusterTerms cluster_terms(const LightNode& node, const Receiver& receiver);

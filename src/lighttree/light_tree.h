@@ -21,9 +21,9 @@ struct LightNode {
   /// Unit. Towards a direction at angle a to the axis, the VPLs' cosines are at most cos(max(0, a - h)), h the cone's
   /// half angle: it holds the geometric normals, and more where shading normals differ or light leaves on both sides.
   Vec3 cone_axis{0, 0, 1};
-  float cone_cos = 1;       ///< cosine of its half angle, in [-1, 1]
-  NodeIndex left = 0;       ///< inner node: its children; leaf: left is the VPL's index in the set
-  NodeIndex right = 0;      ///< 0 at a leaf (the root is nobody's child)
+  float cone_cos = 1;   ///< cosine of its half angle, in [-1, 1]
+  NodeIndex left = 0;   ///< inner node: its children; leaf: left is the VPL's index in the set
+  NodeIndex right = 0;  ///< 0 at a leaf (the root is nobody's child)
   bool is_leaf() const { return right == 0; }
 };
 

@@ -47,7 +47,7 @@ MaterialPoint with_derivatives(const TriangleMesh& mesh, const std::array<std::u
   return {uv, (uv_ac.y * ab - uv_ab.y * ac) / determinant, (uv_ab.x * ac - uv_ac.x * ab) / determinant};
 }
 
-/// The interpolated normal on the side of the geometric one; that one itself where there is none.
+/// The interpolated normal; the geometric one where there is none.
 Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, float b1, float b2,
                        Normal3 geometric) {
   if (mesh.normals.empty()) return geometric;
@@ -55,7 +55,8 @@ Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t,
       (1 - b1 - b2) * as_vec(mesh.normals[t[0]]) + b1 * as_vec(mesh.normals[t[1]]) + b2 * as_vec(mesh.normals[t[2]]);
   const float squared = length_squared(sum);
   if (!(squared > 0)) return geometric;
-  return face_forward(as_normal(sum / std::sqrt(squared)), as_vec(geometric));
+  const Vec3 normal = sum / std::sqrt(squared);
+  return as_normal(mesh.flip_normals ? -normal : normal);
 }
 
 /// Shapes of all triangles, normals on the mesh's side.
@@ -164,9 +165,10 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   const TriangleShape& shape = shapes_[hit.hit.geomID][hit.hit.primID];
   const Normal3 normal = shape.normal;
   const auto [position, error] = triangle_position(a, b, c, shape, b1, b2);
+  const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
   return SurfacePoint{position,
-                      normal,
-                      shading_normal(mesh, t, b1, b2, normal),
+                      shading,
+                      face_forward(normal, as_vec(shading)),
                       interpolate_uv(mesh, t, b1, b2),
                       hit.hit.geomID,
                       hit.hit.primID,

@@ -14,8 +14,8 @@ constexpr std::uint32_t k_no_emitter = 0xffffffffu;
 /// A point on a surface of the scene.
 struct SurfacePoint {
   Point3 position;
-  Normal3 geometric_normal;  ///< unit; side as the file's winding or the shape's definition says, not facing the ray
-  Normal3 shading_normal;    ///< unit, interpolated; on the same side as geometric_normal
+  Normal3 shading_normal;    ///< unit; the mesh's normals interpolated, or the geometric one; not facing the ray
+  Normal3 geometric_normal;  ///< unit; on the side of shading_normal
   Vec2 uv;
   std::uint32_t mesh = 0, triangle = 0;
   std::uint32_t material = 0;

@@ -8,7 +8,7 @@ Rgb glossy_pi_f(const VplView& vpls, const Vpl& y, Vec3 wo, const LobeSelection&
   const VplSurface& surface = vpls.set.surfaces[y.surface];
   Shading shading;
   const float side = surface.behind ? -1.0f : 1.0f;
-  vpls.scene.materials()[surface.material]->shade({surface.uv, Vec3(), Vec3()}, {0, 0, side}, shading);
+  vpls.materials[surface.material]->shade({surface.uv, Vec3(), Vec3()}, {0, 0, side}, shading);
   const Frame frame = frame_from_normal_and_tangent(as_normal(y.shading_normal.decode()), surface.tangent.decode());
   return k_pi * shading.bsdf.eval(frame.to_local(wo), frame.to_local(y.incoming.decode()), lobes.only_connectable());
 }

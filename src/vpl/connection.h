@@ -2,7 +2,8 @@
 
 #include "core/rgb.h"
 #include "materials/lobes.h"
-#include "scene/scene.h"
+#include "materials/material.h"
+#include "scene/surface.h"
 #include "vpl/bounding.h"
 #include "vpl/vpl.h"
 
@@ -16,7 +17,7 @@ struct GatherPoint {
 
 /// The VPLs of a set with what their evaluation needs.
 struct VplView {
-  const Scene& scene;
+  const std::vector<MaterialPtr>& materials;
   const VplSet& set;
   const Vpl& operator[](std::size_t index) const { return set.vpls[index]; }
 };

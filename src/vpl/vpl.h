@@ -20,7 +20,7 @@ struct Vpl {
   /// The particle's flux; where f_c(y) is Lambert, times the albedo pi f_c(y). The factor |wi.ns| / |wi.ng| of the
   /// shading normal is included (Veach 1997, section 5.3), and so is 1 / light_paths.
   Rgb flux;
-  float max_pi_f = 0;  ///< Lambert: largest channel of pi f_c(y); otherwise an upper bound of it; > 0
+  float max_pi_f = 0;                 ///< Lambert: largest channel of pi f_c(y); otherwise an upper bound of it; > 0
   OctahedralNormal geometric_normal;  ///< on the side of shading_normal
   OctahedralNormal shading_normal;    ///< Lambert: on the side that reflects
   OctahedralNormal incoming;          ///< wi: towards the vertex before it

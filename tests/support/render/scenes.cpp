@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "materials/plugins.h"
+
 namespace gradslc {
 namespace {
 
@@ -39,12 +41,14 @@ TriangleMesh outward_box(Point3 lower, Point3 upper, std::uint32_t material) {
   return mesh;
 }
 
-Material diffuse_material(Rgb albedo) {
-  return {.name = "diffuse", .kind = DiffuseMaterial{Texture(albedo)}, .two_sided = true};
+MaterialPtr diffuse_material(Rgb albedo) {
+  const MaterialPtr diffuse = make_diffuse(Texture(albedo));
+  return make_two_sided(diffuse, diffuse);
 }
 
-Material mirror_material(Rgb reflectance) {
-  return {.name = "mirror", .kind = ConductorMaterial{Rgb(), Rgb(1), Texture(reflectance)}, .two_sided = true};
+MaterialPtr mirror_material(Rgb reflectance) {
+  const MaterialPtr mirror = make_mirror(Texture(reflectance));
+  return make_two_sided(mirror, mirror);
 }
 
 PerspectiveCamera camera_at(Resolution resolution, Point3 position, Point3 target, float fov) {

@@ -12,8 +12,9 @@ TriangleMesh inward_box(Point3 lower, Point3 upper, std::uint32_t material);
 /// The same with normals outwards.
 TriangleMesh outward_box(Point3 lower, Point3 upper, std::uint32_t material);
 
-Material diffuse_material(Rgb albedo);
-Material mirror_material(Rgb reflectance = Rgb(1.0f));
+/// Both are two-sided.
+MaterialPtr diffuse_material(Rgb albedo);
+MaterialPtr mirror_material(Rgb reflectance = Rgb(1.0f));
 
 /// A camera at `position` that looks at `target`; `fov` in degrees, horizontal.
 PerspectiveCamera camera_at(Resolution resolution, Point3 position, Point3 target, float fov);

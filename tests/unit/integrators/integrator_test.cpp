@@ -175,7 +175,7 @@ TEST(Integrators, VplsBeyondTheDepthLimitAreLeftOut) {
     for (const Vec2 corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
       const Vec2 position = Vec2{static_cast<float>(pixel.x), static_cast<float>(pixel.y)} + corner;
       const auto hit = scene.intersect(scene.camera().generate_ray(position));
-      all = all && hit && std::holds_alternative<ConductorMaterial>(scene.material(*hit).kind);
+      all = all && hit && !scene.shade(*hit, {0, 0, -1}).bsdf.has(LobeSelection().only_connectable());
     }
     sees_mirror[i] = all;
   }

@@ -21,8 +21,8 @@ namespace {
 Vpl random_vpl(TestRandom& random, float spread) {
   Vpl vpl;
   vpl.position = Point3{} + spread * random.get1() * random.direction();
-  vpl.max_albedo = 0.01f + 0.99f * random.get1();
-  vpl.reflected_flux = vpl.max_albedo * Rgb(random.get1(), random.get1(), random.get1());
+  vpl.max_pi_f = 0.01f + 0.99f * random.get1();
+  vpl.flux = vpl.max_pi_f * Rgb(random.get1(), random.get1(), random.get1());
   const Vec3 normal = random.direction();
   vpl.geometric_normal = vpl.shading_normal = OctahedralNormal(normal);
   vpl.vertex = 1;
@@ -35,15 +35,20 @@ std::vector<Vpl> random_vpls(TestRandom& random, std::size_t count, float spread
   return vpls;
 }
 
-GatherPoint random_gather_point(TestRandom& random, float spread) {
-  GatherPoint x;
+ShadedPoint random_gather_point(TestRandom& random, float spread) {
+  ShadedPoint x;
   x.point.position = Point3{} + spread * random.get1() * random.direction();
-  x.point.shading = frame_from_normal(as_normal(random.direction()));
-  x.point.geometric_normal = x.point.shading.n;
-  x.bsdf = Bsdf(Diffuse{Rgb(random.get1(), random.get1(), random.get1())}, true);
+  x.frame = frame_from_normal(as_normal(random.direction()));
+  x.point.geometric_normal = x.point.shading_normal = x.frame.n;
+  x.bsdf.add(Lambert{Rgb(random.get1(), random.get1(), random.get1())});
   do x.wo = random.direction();
-  while (std::abs(x.wo.z) < 1e-3f);
+  while (x.wo.z < 1e-3f);
   return x;
+}
+
+/// Of a Lambertian VPL.
+Rgb unshadowed(const ShadedPoint& x, const LightTree& tree, std::size_t vpl, float bound) {
+  return unshadowed_contribution({x, LobeSelection()}, {{}, tree.set}, tree.set.vpls[vpl], bound);
 }
 
 /// Calls visit(node) for every node below `start`.
@@ -83,7 +88,7 @@ class Builders : public testing::TestWithParam<const char*> {
  protected:
   static LightTree build(std::vector<Vpl> vpls) {
     for (const BuilderEntry& entry : builder_registry())
-      if (std::string(entry.name) == GetParam()) return entry.build(std::move(vpls));
+      if (std::string(entry.name) == GetParam()) return entry.build({.vpls = std::move(vpls)});
     return {};
   }
 };
@@ -99,20 +104,20 @@ TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
   for (const std::size_t count : {1u, 2u, 3u, 5u, 64u, 65u, 1000u}) {
     const std::vector<Vpl> vpls = random_vpls(random, count);
     const LightTree tree = build(vpls);
-    ASSERT_EQ(tree.vpls.size(), count);
+    ASSERT_EQ(tree.set.vpls.size(), count);
     std::vector<std::uint32_t> all = vpls_below(tree, 0);
     std::sort(all.begin(), all.end());
     std::vector<std::uint32_t> expected(count);
     std::iota(expected.begin(), expected.end(), 0u);
     EXPECT_EQ(all, expected);
     double flux_in = 0, flux_out = 0;
-    for (const Vpl& vpl : vpls) flux_in += static_cast<double>(luminance(vpl.reflected_flux));
-    for (const Vpl& vpl : tree.vpls) flux_out += static_cast<double>(luminance(vpl.reflected_flux));
+    for (const Vpl& vpl : vpls) flux_in += static_cast<double>(luminance(vpl.flux));
+    for (const Vpl& vpl : tree.set.vpls) flux_out += static_cast<double>(luminance(vpl.flux));
     EXPECT_NEAR(flux_in, flux_out, 1e-6 * flux_in);
     for_each_node(tree, 0, [&](NodeIndex node) {
       for (const std::uint32_t i : vpls_below(tree, node)) {
-        EXPECT_TRUE(tree.nodes[node].box.contains(tree.vpls[i].position));
-        EXPECT_GE(dot(tree.nodes[node].cone_axis, tree.vpls[i].geometric_normal.decode()),
+        EXPECT_TRUE(tree.nodes[node].box.contains(tree.set.vpls[i].position));
+        EXPECT_GE(dot(tree.nodes[node].cone_axis, tree.set.vpls[i].geometric_normal.decode()),
                   tree.nodes[node].cone_cos - 1e-6f);
       }
     });
@@ -124,10 +129,10 @@ TEST_P(Builders, DegenerateInputs) {
   TestRandom random(3);
   std::vector<Vpl> same(17, random_vpl(random, 1));
   EXPECT_EQ(vpls_below(build(same), 0).size(), 17u);
-  for (Vpl& vpl : same) vpl.reflected_flux = Rgb();
+  for (Vpl& vpl : same) vpl.flux = Rgb();
   const LightTree black = build(same);
-  const GatherPoint x = random_gather_point(random, 1);
-  const Receiver r = make_receiver(x);
+  const ShadedPoint x = random_gather_point(random, 1);
+  const Receiver r = make_receiver({x, LobeSelection()});
   EXPECT_EQ(cluster_bound(black.nodes[0], {&r, 1}, 1), 0);
   LightCut cut;
   find_cut(black, {&r, 1}, 1, 10, cut);
@@ -144,7 +149,7 @@ TEST_P(Builders, SameBitsForAnyNumberOfThreads) {
   const LightTree seven = build(vpls);
   set_thread_count(threads_before);
   EXPECT_EQ(std::memcmp(one.nodes.data(), seven.nodes.data(), one.nodes.size() * sizeof(LightNode)), 0);
-  EXPECT_EQ(std::memcmp(one.vpls.data(), seven.vpls.data(), one.vpls.size() * sizeof(Vpl)), 0);
+  EXPECT_EQ(std::memcmp(one.set.vpls.data(), seven.set.vpls.data(), one.set.vpls.size() * sizeof(Vpl)), 0);
 }
 
 // The property of DESIGN 5: a node's bound is never below the sum of the contributions of its VPLs, and 0 only if all
@@ -156,12 +161,12 @@ TEST_P(Builders, BoundsHoldForRandomNodesAndReceivers) {
     const float spread = std::exp(4 * random.get1() - 2);
     const LightTree tree = build(random_vpls(random, 1 + random.below(100), spread));
     for (int k = 0; k < 40; ++k) {
-      const GatherPoint x = random_gather_point(random, 1);
+      const ShadedPoint x = random_gather_point(random, 1);
       const float bound = random.below(3) == 0 ? k_infinity : std::exp(8 * random.get1() - 4);
-      std::vector<double> contribution(tree.vpls.size());
-      for (std::size_t i = 0; i < tree.vpls.size(); ++i)
-        contribution[i] = static_cast<double>(luminance(unshadowed_contribution(x, tree.vpls[i], bound)));
-      const Receiver r = make_receiver(x);
+      std::vector<double> contribution(tree.set.vpls.size());
+      for (std::size_t i = 0; i < tree.set.vpls.size(); ++i)
+        contribution[i] = static_cast<double>(luminance(unshadowed(x, tree, i, bound)));
+      const Receiver r = make_receiver({x, LobeSelection()});
       for_each_node(tree, 0, [&](NodeIndex node) {
         ++cases;
         double sum = 0;
@@ -184,15 +189,15 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
   std::vector<double> p_values;
   for (int round = 0; round < 20; ++round) {
     const LightTree tree = build(random_vpls(random, 1 + random.below(24)));
-    std::vector<GatherPoint> points;
+    std::vector<ShadedPoint> points;
     std::vector<Receiver> receivers;
     for (std::size_t k = 0; k < 1 + random.below(4); ++k) {
       points.push_back(random_gather_point(random, 1.5f));
-      receivers.push_back(make_receiver(points.back()));
+      receivers.push_back(make_receiver({points.back(), LobeSelection()}));
     }
     const float bound = 0.5f;
     // The probability of every leaf by walking all branches with the one probability function.
-    std::vector<double> probability(tree.vpls.size(), 0);
+    std::vector<double> probability(tree.set.vpls.size(), 0);
     const std::function<void(NodeIndex, double)> walk = [&](NodeIndex node, double p) {
       if (tree.nodes[node].is_leaf()) {
         probability[tree.nodes[node].left] = p;
@@ -207,22 +212,22 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
     double lost = 1;
     for (const double p : probability) lost -= p;
     EXPECT_GE(lost, -1e-12);
-    for (std::size_t i = 0; i < tree.vpls.size(); ++i)
-      for (const GatherPoint& x : points)
-        if (!is_black(unshadowed_contribution(x, tree.vpls[i], bound))) {
+    for (std::size_t i = 0; i < tree.set.vpls.size(); ++i)
+      for (const ShadedPoint& x : points)
+        if (!is_black(unshadowed(x, tree, i, bound))) {
           EXPECT_GT(probability[i], 0);
         }
 
-    std::vector<double> observed(tree.vpls.size() + 1, 0), expected(tree.vpls.size() + 1, 0);
+    std::vector<double> observed(tree.set.vpls.size() + 1, 0), expected(tree.set.vpls.size() + 1, 0);
     std::uint64_t evaluations = 0;
     for (int d = 0; d < k_draws; ++d) {
       const auto sample = descend(tree, 0, receivers, bound, random.get1_double(), evaluations);
-      ++observed[sample ? sample->vpl : tree.vpls.size()];
+      ++observed[sample ? sample->vpl : tree.set.vpls.size()];
       if (sample) {
         ASSERT_NEAR(sample->probability, probability[sample->vpl], 1e-9 * sample->probability);
       }
     }
-    for (std::size_t i = 0; i < tree.vpls.size(); ++i) expected[i] = k_draws * probability[i];
+    for (std::size_t i = 0; i < tree.set.vpls.size(); ++i) expected[i] = k_draws * probability[i];
     expected.back() = k_draws * std::max(lost, 0.0);
     if (expected.back() < 1e-6) expected.back() = 0;
     p_values.push_back(chi_square_test(observed, expected).p_value);
@@ -234,18 +239,18 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
 TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
   TestRandom random(7);
   const LightTree tree = build(random_vpls(random, 100));
-  const GatherPoint x = random_gather_point(random, 0.5f);
-  const Receiver r = make_receiver(x);
+  const ShadedPoint x = random_gather_point(random, 0.5f);
+  const Receiver r = make_receiver({x, LobeSelection()});
   LightCut cut;
   for (const int size : {1, 2, 7, 50, 1000}) {
     find_cut(tree, {&r, 1}, 1, size, cut);
     EXPECT_LE(cut.entries.size(), static_cast<std::size_t>(size));
-    std::vector<int> covered(tree.vpls.size(), 0);
+    std::vector<int> covered(tree.set.vpls.size(), 0);
     for (const LightCut::Entry& entry : cut.entries)
       for (const std::uint32_t i : vpls_below(tree, entry.node)) ++covered[i];
     for (std::size_t i = 0; i < covered.size(); ++i) {
       EXPECT_LE(covered[i], 1);
-      if (!is_black(unshadowed_contribution(x, tree.vpls[i], 1))) {
+      if (!is_black(unshadowed(x, tree, i, 1))) {
         EXPECT_EQ(covered[i], 1);
       }
     }
@@ -261,7 +266,10 @@ TEST_P(Builders, ProbabilitiesDoNotDependOnTheUnitOfLength) {
   for (Vpl& vpl : scaled) vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
   const LightTree tree = build(vpls), large = build(scaled);
   std::vector<Receiver> receivers;
-  for (int k = 0; k < 3; ++k) receivers.push_back(make_receiver(random_gather_point(random, 1.2f)));
+  for (int k = 0; k < 3; ++k) {
+    const ShadedPoint x = random_gather_point(random, 1.2f);
+    receivers.push_back(make_receiver({x, LobeSelection()}));
+  }
   std::vector<Receiver> far = receivers;
   for (Receiver& r : far) r.position = {k_scale * r.position.x, k_scale * r.position.y, k_scale * r.position.z};
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {

@@ -45,25 +45,63 @@ TEST(Intersect, WithoutUvsGivesBarycentricCoordinates) {
   const SurfacePoint hit = hit_at(Scene(test::describe({triangle()})), 0.5f, 1);
   EXPECT_NEAR(hit.uv.x, 0.25f, 1e-6f);
   EXPECT_NEAR(hit.uv.y, 0.25f, 1e-6f);
-  EXPECT_EQ(hit.shading.s, (Vec3{1, 0, 0}));
 }
 
-TEST(Intersect, TheTangentPointsToWhereUGrows) {
+// A material that asks for derivatives gets those of its point.
+class DerivativeMaterial final : public Material {
+ public:
+  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+    shading.bsdf.add(Lambert{Rgb(point.dp_du.x, point.dp_du.y, point.dp_dv.x)});
+  }
+  bool has_other_lobes(const LobeSelection&) const override { return false; }
+  float max_connectable_pi_f(const LobeSelection&) const override { return 1; }
+  bool needs_derivatives() const override { return true; }
+};
+
+ShadedPoint shaded(const TriangleMesh& mesh) {
+  SceneDescription description = test::describe({mesh});
+  description.materials = {std::make_shared<DerivativeMaterial>()};
+  const Scene scene(std::move(description));
+  return scene.shade(hit_at(scene, 0.5f, 1), {0, 0, 1});
+}
+
+TEST(Shade, TheTangentPointsToWhereUGrows) {
   TriangleMesh mesh = triangle();
   for (const bool mirrored : {false, true}) {
-    mesh.uvs = {{0, 0}, {0, 1}, {mirrored ? -3.0f : 3.0f, 0}};  // u grows along +y or -y
-    const SurfacePoint hit = hit_at(Scene(test::describe({mesh})), 0.5f, 1);
-    EXPECT_NEAR(hit.shading.s.y, mirrored ? -1 : 1, 1e-6f);
-    EXPECT_NEAR(dot(cross(hit.shading.s, hit.shading.t), hit.shading.n), 1, 1e-6f);
+    mesh.uvs = {{0, 0}, {0, 1}, {mirrored ? -4.0f : 4.0f, 0}};  // u grows along +y or -y, v along +x
+    const ShadedPoint point = shaded(mesh);
+    EXPECT_NEAR(point.frame.s.y, mirrored ? -1 : 1, 1e-6f);
+    EXPECT_NEAR(dot(cross(point.frame.s, point.frame.t), point.frame.n), 1, 1e-6f);
+    const Rgb derivatives = point.bsdf.albedo();
+    EXPECT_NEAR(derivatives.r, 0, 1e-6f);
+    EXPECT_NEAR(derivatives.g, mirrored ? -1 : 1, 1e-6f);  // 4 along y
+    EXPECT_NEAR(derivatives.b, 2, 1e-6f);                  // 2 along x
   }
 }
 
-TEST(Intersect, DegenerateUvsStillGiveAFrame) {
+TEST(Shade, WithoutUvsTheTangentIsTheFirstEdge) { EXPECT_EQ(shaded(triangle()).frame.s, (Vec3{1, 0, 0})); }
+
+TEST(Shade, DegenerateUvsStillGiveAFrame) {
   TriangleMesh mesh = triangle();
   mesh.uvs = {{1, 1}, {1, 1}, {1, 1}};
-  const SurfacePoint hit = hit_at(Scene(test::describe({mesh})), 0.5f, 1);
-  EXPECT_NEAR(length(hit.shading.s), 1, 1e-6f);
-  EXPECT_NEAR(dot(hit.shading.s, hit.shading.n), 0, 1e-6f);
+  const ShadedPoint point = shaded(mesh);
+  EXPECT_NEAR(length(point.frame.s), 1, 1e-6f);
+  EXPECT_NEAR(dot(point.frame.s, point.frame.n), 0, 1e-6f);
+  EXPECT_EQ(point.bsdf.albedo(), Rgb());
+}
+
+// Behind a two-sided surface everything is as before it, mirrored.
+TEST(Shade, TwoSidedMaterialsFaceThePath) {
+  const Scene scene(test::describe({triangle()}));
+  const SurfacePoint hit = hit_at(scene, 0.5f, 1);
+  const Vec3 wo = normalize(Vec3{0.3f, 0.2f, 0.7f});
+  for (const float side : {1.0f, -1.0f}) {
+    const ShadedPoint point = scene.shade(hit, {wo.x, wo.y, side * wo.z});
+    EXPECT_EQ(point.frame.n, (Normal3{0, 0, side}));
+    EXPECT_NEAR(point.wo.z, wo.z, 1e-6f);
+    const Vec3 back = point.to_world(point.to_local(wo));
+    EXPECT_NEAR(length(back - wo), 0, 1e-6f);
+  }
 }
 
 TEST(Intersect, FlippedNormalsPointTheOtherWay) {
@@ -71,26 +109,25 @@ TEST(Intersect, FlippedNormalsPointTheOtherWay) {
   mesh.flip_normals = true;
   const SurfacePoint hit = hit_at(Scene(test::describe({mesh})), 0.5f, 1);
   EXPECT_EQ(hit.geometric_normal, (Normal3{0, 0, -1}));
-  EXPECT_EQ(hit.shading.n, (Normal3{0, 0, -1}));
+  EXPECT_EQ(hit.shading_normal, (Normal3{0, 0, -1}));
 }
 
-TEST(Intersect, TheShadingNormalIsInterpolatedOnTheGeometricSide) {
+TEST(Intersect, TheGeometricNormalIsOnTheSideOfTheInterpolatedOne) {
   TriangleMesh mesh = triangle();
   for (const float side : {1.0f, -1.0f}) {
     mesh.normals = {{0, 0, side}, {0.6f, 0, 0.8f * side}, {0, 0, side}};
     const SurfacePoint hit = hit_at(Scene(test::describe({mesh})), 1, 0.5f);  // b1 = 1/2
-    const Vec3 expected = normalize(Vec3{0.3f * side, 0, 0.9f});
-    EXPECT_NEAR(hit.shading.n.x, expected.x, 1e-5f);
-    EXPECT_NEAR(hit.shading.n.z, expected.z, 1e-5f);
-    EXPECT_EQ(hit.geometric_normal, (Normal3{0, 0, 1}));
-    EXPECT_NEAR(dot(hit.shading.s, hit.shading.n), 0, 1e-6f);
+    const Vec3 expected = normalize(Vec3{0.3f, 0, 0.9f * side});
+    EXPECT_NEAR(hit.shading_normal.x, expected.x, 1e-5f);
+    EXPECT_NEAR(hit.shading_normal.z, expected.z, 1e-5f);
+    EXPECT_EQ(hit.geometric_normal, (Normal3{0, 0, side}));
   }
 }
 
 TEST(Intersect, NormalsThatCancelFallBackToTheGeometricOne) {
   TriangleMesh mesh = triangle();
   mesh.normals = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  EXPECT_EQ(hit_at(Scene(test::describe({mesh})), 0.5f, 1).shading.n, (Normal3{0, 0, 1}));
+  EXPECT_EQ(hit_at(Scene(test::describe({mesh})), 0.5f, 1).shading_normal, (Normal3{0, 0, 1}));
 }
 
 TEST(Intersect, SeesBothSidesAndTheNearestSurface) {

@@ -15,35 +15,40 @@ namespace {
 Vpl vpl_at(Point3 position, Normal3 normal, Rgb flux, float albedo) {
   Vpl vpl;
   vpl.position = position;
-  vpl.reflected_flux = flux * albedo;
-  vpl.max_albedo = albedo;
+  vpl.flux = flux * albedo;
+  vpl.max_pi_f = albedo;
   vpl.geometric_normal = vpl.shading_normal = OctahedralNormal(as_vec(normal));
   vpl.vertex = 1;
   return vpl;
 }
 
-GatherPoint floor_point(float albedo) {
-  GatherPoint x;
-  x.point.shading = frame_from_normal({0, 0, 1});
-  x.bsdf = Bsdf(Diffuse{Rgb(albedo)}, true);
+ShadedPoint floor_point(float albedo) {
+  ShadedPoint x;
+  x.frame = frame_from_normal({0, 0, 1});
+  x.bsdf.add(Lambert{Rgb(albedo)});
   x.wo = normalize(Vec3{0.3f, 0.1f, 1});
   return x;
 }
 
+/// With Lambertian VPLs.
+Rgb contribution(const ShadedPoint& x, const Vpl& y, float bound) {
+  return unshadowed_contribution({x, LobeSelection()}, {{}, {}}, y, bound);
+}
+
 TEST(Connection, MatchesTheFormulaByHand) {
-  const GatherPoint x = floor_point(0.5f);
+  const ShadedPoint x = floor_point(0.5f);
   // Straight above at distance 2, facing down: f_x G f_y flux = 0.5/pi * 1/4 * 0.8/pi * 3.
   const Vpl y = vpl_at({0, 0, 2}, {0, 0, -1}, Rgb(3), 0.8f);
-  EXPECT_NEAR(unshadowed_contribution(x, y, k_infinity).r, 0.5f / k_pi * 0.25f * 0.8f / k_pi * 3, 1e-6f);
+  EXPECT_NEAR(contribution(x, y, k_infinity).r, 0.5f / k_pi * 0.25f * 0.8f / k_pi * 3, 1e-6f);
   // Bounded: K = 0.5 * 0.8 / 4 = 0.1; b = 0.02 leaves a fifth.
-  EXPECT_NEAR(unshadowed_contribution(x, y, 0.02f).r, 0.2f * 0.5f / k_pi * 0.25f * 0.8f / k_pi * 3, 1e-6f);
+  EXPECT_NEAR(contribution(x, y, 0.02f).r, 0.2f * 0.5f / k_pi * 0.25f * 0.8f / k_pi * 3, 1e-6f);
 }
 
 TEST(Connection, IsBlackBehindEitherSurfaceAndAtDistanceZero) {
-  const GatherPoint x = floor_point(0.5f);
-  EXPECT_TRUE(is_black(unshadowed_contribution(x, vpl_at({0, 0, -2}, {0, 0, 1}, Rgb(1), 0.5f), 1)));
-  EXPECT_TRUE(is_black(unshadowed_contribution(x, vpl_at({0, 0, 2}, {0, 0, 1}, Rgb(1), 0.5f), 1)));
-  EXPECT_TRUE(is_black(unshadowed_contribution(x, vpl_at({0, 0, 0}, {0, 0, -1}, Rgb(1), 0.5f), 1)));
+  const ShadedPoint x = floor_point(0.5f);
+  EXPECT_TRUE(is_black(contribution(x, vpl_at({0, 0, -2}, {0, 0, 1}, Rgb(1), 0.5f), 1)));
+  EXPECT_TRUE(is_black(contribution(x, vpl_at({0, 0, 2}, {0, 0, 1}, Rgb(1), 0.5f), 1)));
+  EXPECT_TRUE(is_black(contribution(x, vpl_at({0, 0, 0}, {0, 0, -1}, Rgb(1), 0.5f), 1)));
 }
 
 TEST(Bounding, WeightsAddUpToOne) {
@@ -56,11 +61,11 @@ TEST(Bounding, WeightsAddUpToOne) {
 TEST(Bounding, ContributionNeverExceedsFluxTimesBound) {
   TestRandom random(3);
   for (int i = 0; i < 100000; ++i) {
-    const GatherPoint x = floor_point(random.get1());
+    const ShadedPoint x = floor_point(random.get1());
     const Vec3 p = random.direction() * random.get1();
     const Vpl y = vpl_at({p.x, p.y, p.z}, as_normal(random.direction()), Rgb(1), 0.05f + 0.95f * random.get1());
     const float bound = std::exp(10 * random.get1() - 5);
-    EXPECT_LE(unshadowed_contribution(x, y, bound).r, 1.0001f * bound / (k_pi * k_pi));
+    EXPECT_LE(contribution(x, y, bound).r, 1.0001f * bound / (k_pi * k_pi));
   }
 }
 

@@ -30,7 +30,7 @@ TEST(LightTracing, ConservesEnergyAtEveryBounce) {
   for (int run = 0; run < k_runs; ++run) {
     std::vector<double> sum(k_bounces + 1);
     for (const Vpl& vpl : trace_vpls(scene, settings_for(100, k_bounces, static_cast<std::uint64_t>(run))).vpls)
-      sum[vpl.vertex] += static_cast<double>(vpl.reflected_flux.g);
+      sum[vpl.vertex] += static_cast<double>(vpl.flux.g);
     for (std::size_t k = 1; k < sum.size(); ++k) reflected[k].add(sum[k]);
   }
   const double power = static_cast<double>(scene.emitters().power().g);
@@ -43,7 +43,8 @@ TEST(LightTracing, ConservesEnergyAtEveryBounce) {
 TEST(LightTracing, StopsAfterMaxBounces) {
   const Scene scene = closed_furnace(Rgb(0.9f), {4, 4});
   std::uint32_t deepest = 0;
-  for (const Vpl& vpl : trace_vpls(scene, settings_for(2000, 3)).vpls) deepest = std::max(deepest, vpl.vertex);
+  for (const Vpl& vpl : trace_vpls(scene, settings_for(2000, 3)).vpls)
+    deepest = std::max<std::uint32_t>(deepest, vpl.vertex);
   EXPECT_EQ(deepest, 3u);
 }
 
@@ -74,7 +75,7 @@ TEST(LightTracing, LeavesNoVplOnMirrorsNorOnBlackWalls) {
   const auto set = trace_vpls(scene, settings_for(2000, 5));
   ASSERT_FALSE(set.vpls.empty());
   for (const Vpl& vpl : set.vpls) {
-    EXPECT_GT(vpl.max_albedo, 0);
+    EXPECT_GT(vpl.max_pi_f, 0);
     const bool on_back_wall = vpl.position.z > 0.999f && std::abs(vpl.geometric_normal.decode().z) > 0.9f;
     EXPECT_FALSE(on_back_wall) << "the back wall is a mirror";
   }
