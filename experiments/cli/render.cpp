@@ -35,7 +35,7 @@ struct RenderArguments {
   std::string sampler;
   std::vector<std::string> overrides;
   float exposure = 0;
-  bool parts = false, print_json = false, quiet = false;
+  bool permissive = false, parts = false, print_json = false, quiet = false;
 };
 
 /// Reads --method, a name or a JSON object, with --set applied.
@@ -131,8 +131,11 @@ int render(const RenderArguments& arguments) {
   LoadOptions load_options;
   load_options.width = arguments.width;
   load_options.height = arguments.height;
+  load_options.permissive = arguments.permissive;
   const Scene scene(load_scene(arguments.scene, load_options));
-  if (!scene.notes().empty())
+  if (arguments.permissive)
+    for (const std::string& note : scene.notes()) console.log(note);
+  else if (!scene.notes().empty())
     console.log(fmt::format("{}: {} settings have no effect here; gradslc info lists them", arguments.scene,
                             scene.notes().size()));
   const Budget budget = arguments.seconds ? Budget{Budget::Kind::seconds, *arguments.seconds}
@@ -191,6 +194,7 @@ Command render_command(CLI::App& parent) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--components", arguments->components, "Light to show: emission,direct,indirect (default: all)");
+  app.add_flag("--permissive", arguments->permissive, "Note what the scene file has that is not recognised, and go on");
   app.add_flag("--parts", arguments->parts, "Also write the image split by how the light came");
   app.add_option("--exposure", arguments->exposure, "Stops added in a .png")
       ->check(CLI::Range(-100.0, 100.0))

@@ -48,6 +48,8 @@ class Light {
 
   /// Whether rays that leave the scene can meet it: then radiance() and pdf_direct() are not 0 everywhere.
   virtual bool is_environment() const { return false; }
+  /// All others are: no ray can hit them by chance.
+  bool is_delta() const { return !is_environment(); }
   /// Radiance that comes from the unit direction `direction` (pointing away from the scene).
   virtual Rgb radiance(Vec3 /*direction*/) const { return Rgb(); }
   /// Density of sample_direct(), 1/sr; > 0 wherever radiance() is.

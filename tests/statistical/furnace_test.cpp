@@ -44,7 +44,7 @@ void expect_furnace(const Components& components, int max_depth) {
   const double level = sidak(0.001, methods().size());
   for (const Method& method : methods()) {
     const auto moments = block_moments(method, scene, {.max_depth = max_depth, .components = components},
-                                       {.runs = 200, .passes = 2, .block = 16, .seed = 11});
+                                       {.runs = 240, .passes = 2, .block = 16, .seed = 11});
     const Moments& image = moments.blocks.at(Quantity::image)[0];
     EXPECT_GT(image.p_value(expected), level)
         << fmt::format("{}: mean {} +- {}, expected {}", method.label, image.mean(), image.standard_error(), expected);

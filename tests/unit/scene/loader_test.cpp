@@ -1,7 +1,7 @@
 // What scene files mean, in both dialects.
 
 #include "loader_fixtures.h"
-#include "scene/summary.h"
+#include "scene/inventory.h"
 
 namespace gradslc {
 namespace {
@@ -73,16 +73,19 @@ TEST(Loader, ReadsOurOwnCornellBox) {
   EXPECT_EQ(name_at(20, 24), "short_block");
 }
 
-TEST(Loader, SummarisesTheScene) {
-  const SceneSummary summary = summarise(Scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml")));
-  EXPECT_EQ(summary.triangles, 36u);
-  EXPECT_EQ(summary.meshes, 8u);
-  EXPECT_EQ(summary.materials, (std::map<std::string, int>{{"diffuse", 1}, {"twosided diffuse", 3}}));
-  EXPECT_EQ(summary.emitters, 2u);
-  EXPECT_NEAR(summary.emitter_power.g, 12 * k_pi * 0.13 * 0.105, 1e-5);
-  EXPECT_EQ(summary.resolution, (Resolution{256, 256}));
-  EXPECT_EQ(summary.notes.size(), 3u);
-  EXPECT_GT(summary.memory_bytes, 36u * 12);
+TEST(Loader, TakesAnInventoryOfTheScene) {
+  const SceneInventory inventory = take_inventory(Scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml")));
+  EXPECT_EQ(inventory.triangles, 36u);
+  EXPECT_EQ(inventory.meshes, 8u);
+  EXPECT_EQ(inventory.materials, (std::map<std::string, int>{{"diffuse", 1}, {"twosided diffuse", 3}}));
+  EXPECT_EQ(inventory.emissive_triangles, 2u);
+  EXPECT_NEAR(inventory.emitted_power.g, 12 * k_pi * 0.13 * 0.105, 1e-5);
+  EXPECT_EQ(inventory.resolution, (Resolution{256, 256}));
+  EXPECT_EQ(inventory.notes.size(), 3u);
+  EXPECT_EQ(inventory.lights, (std::map<std::string, int>{{"area", 1}}));
+  EXPECT_EQ(inventory.textures, 0u);
+  EXPECT_FALSE(inventory.delta_light_on_delta_lobes);
+  EXPECT_GT(inventory.geometry_bytes, 36u * 12);
 }
 
 TEST(Loader, AShapeWithoutBsdfIsHalfGrey) {
