@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +25,8 @@ struct SceneDescription {
   std::vector<std::string> material_kinds;  ///< plug-ins of each material ("twosided diffuse"); may be left empty
   std::vector<AreaLight> area_lights;
   PerspectiveCamera camera;
-  std::vector<std::string> notes;  ///< what the file asks for that has no effect here, once each
+  std::vector<std::string> notes;            ///< what the file asks for that has no effect here, once each
+  std::vector<std::filesystem::path> files;  ///< all that the scene was read from, the scene file first
 };
 
 /// Geometry, materials, emitters and camera, ready to trace. Immutable; all queries may run concurrently.
@@ -48,6 +50,7 @@ class Scene {
   const std::vector<std::string>& material_kinds() const { return description_.material_kinds; }
   const Material& material(const SurfacePoint& point) const { return description_.materials[point.material]; }
   const std::vector<std::string>& notes() const { return description_.notes; }
+  const std::vector<std::filesystem::path>& files() const { return description_.files; }
   Bounds3 bounds() const { return bounds_; }
   std::size_t triangle_count() const;
   /// Bytes of meshes and acceleration structure.
