@@ -2,12 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include "core/error.h"
@@ -25,6 +26,23 @@ void sync_to_disk(const std::filesystem::path& path) {
   close(descriptor);
   if (!synced) throw_input_error(path.string(), "cannot be synced: " + reason);
 }
+
+constexpr std::size_t k_read_step = 65536;  // bytes, where a file's size is not known before
+
+/// An open file's number, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  ~Descriptor() {
+    if (value_ >= 0) close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
 
 /// A temporary file's name; the file is removed unless it has been renamed.
 class TemporaryFile {
@@ -48,12 +66,21 @@ class TemporaryFile {
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw_input_error(path.string(), "is a folder, a file is needed");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_input_error(path.string(), "cannot be opened: " + last_error());
-  std::ostringstream content;
-  content << stream.rdbuf();
-  if (stream.bad()) throw_input_error(path.string(), "cannot be read: " + last_error());
-  return std::move(content).str();
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.value() < 0) throw_input_error(path.string(), "cannot be opened: " + last_error());
+  struct stat status {};
+  const bool sized = fstat(file.value(), &status) == 0 && S_ISREG(status.st_mode);
+  std::string content(sized ? static_cast<std::size_t>(status.st_size) + 1 : k_read_step, '\0');
+  for (std::size_t size = 0;;) {
+    const ssize_t count = read(file.value(), content.data() + size, content.size() - size);
+    if (count < 0 && errno != EINTR) throw_input_error(path.string(), "cannot be read: " + last_error());
+    if (count > 0) size += static_cast<std::size_t>(count);
+    if (count == 0) {
+      content.resize(size);
+      return content;
+    }
+    if (size == content.size()) content.resize(size + std::max(size, k_read_step));
+  }
 }
 
 void write_file_atomically(const std::filesystem::path& path,

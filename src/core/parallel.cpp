@@ -14,18 +14,16 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
   if (count == 0) return;
   const std::size_t chunks = (count + grain - 1) / grain;
   std::exception_ptr error;
-  std::size_t error_chunk = std::numeric_limits<std::size_t>::max();
   std::mutex error_mutex;
-  std::atomic<bool> failed = false;
+  std::atomic<std::size_t> error_chunk = std::numeric_limits<std::size_t>::max();  // the first one that has thrown
 #pragma omp parallel for schedule(dynamic, 1) if (chunks > 1)
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    if (failed.load(std::memory_order_relaxed)) continue;
+    if (chunk > error_chunk.load(std::memory_order_relaxed)) continue;
     try {
       body(chunk * grain, std::min(count, (chunk + 1) * grain));
     } catch (...) {
       const std::lock_guard lock(error_mutex);
       if (chunk < error_chunk) error = std::current_exception(), error_chunk = chunk;
-      failed = true;
     }
   }
   if (error) std::rethrow_exception(error);

@@ -7,8 +7,8 @@
 namespace gradslc {
 
 /// Calls body(begin, end) for chunks of at most `grain` indices that cover [0, count), on all threads, in any order.
-/// The chunks do not depend on the number of threads. An exception of a chunk is rethrown after the loop;
-/// no new chunks are begun once one has thrown.
+/// The chunks do not depend on the number of threads. The exception of the first chunk that throws is rethrown after
+/// the loop; chunks after it are not begun any more, those before it are, so that it is the same one every time.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
 /// Sum of chunk_sum(begin, end) over the same chunks, added in their order: the same bits for any number of threads.

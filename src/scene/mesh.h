@@ -7,6 +7,7 @@
 
 #include "core/bounds.h"
 #include "core/vec.h"
+#include "scene/triangle.h"
 
 namespace gradslc {
 
@@ -28,7 +29,14 @@ struct TriangleMesh {
 /// Throws Error (input) that names the mesh where an index is out of range, a value is not finite, or the number of
 /// normals or uvs differs from that of the positions.
 void check_mesh(const TriangleMesh& mesh);
-/// Drops the triangles without area, which nothing can hit. The mesh must have passed check_mesh().
-void remove_empty_triangles(TriangleMesh& mesh);
+
+/// What is made of a scene's meshes once.
+struct PreparedMeshes {
+  std::vector<std::vector<TriangleShape>> shapes;  ///< by mesh and triangle; normals on the mesh's side (flip_normals)
+  Bounds3 bounds;
+};
+/// Checks the meshes as check_mesh() does, drops the triangles without area, which nothing can hit, and computes the
+/// others' shapes; on all threads, within large meshes too. The Error is that of the first mesh that has one.
+PreparedMeshes prepare_meshes(std::vector<TriangleMesh>& meshes);
 
 }  // namespace gradslc

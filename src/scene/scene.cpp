@@ -17,6 +17,10 @@ namespace {
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
+struct GeometryRelease {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using Geometry = std::unique_ptr<RTCGeometryTy, GeometryRelease>;
 struct SceneRelease {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
@@ -59,19 +63,6 @@ Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t,
   return as_normal(mesh.flip_normals ? -normal : normal);
 }
 
-/// Shapes of all triangles, normals on the mesh's side.
-std::vector<TriangleShape> triangle_shapes(const TriangleMesh& mesh) {
-  std::vector<TriangleShape> shapes(mesh.triangles.size());
-  parallel_for(shapes.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& t = mesh.triangles[i];
-      shapes[i] = triangle_shape(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-      if (mesh.flip_normals) shapes[i].normal = -shapes[i].normal;
-    }
-  });
-  return shapes;
-}
-
 }  // namespace
 
 /// Device, scene and what they use of memory.
@@ -81,7 +72,7 @@ struct Scene::Embree {
   std::unique_ptr<RTCSceneTy, SceneRelease> scene;
 
   explicit Embree(const std::vector<TriangleMesh>& meshes);
-  void attach(const TriangleMesh& mesh, unsigned int id);
+  Geometry make_geometry(const TriangleMesh& mesh) const;
   void check() const;
 };
 
@@ -95,27 +86,29 @@ Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes) : device(rtcNewDe
   rtcSetDeviceMemoryMonitorFunction(device.get(), count_bytes, this);
   scene.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    if (!meshes[i].triangles.empty()) attach(meshes[i], static_cast<unsigned int>(i));
+  std::vector<Geometry> geometries(meshes.size());
+  parallel_for(meshes.size(), 1, [&](std::size_t i, std::size_t) {
+    if (!meshes[i].triangles.empty()) geometries[i] = make_geometry(meshes[i]);
+  });
+  for (std::size_t i = 0; i < geometries.size(); ++i)
+    if (geometries[i]) rtcAttachGeometryByID(scene.get(), geometries[i].get(), static_cast<unsigned int>(i));
   rtcCommitScene(scene.get());
   check();
 }
 
-void Scene::Embree::attach(const TriangleMesh& mesh, unsigned int id) {
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+Geometry Scene::Embree::make_geometry(const TriangleMesh& mesh) const {
+  Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   // Copies: Embree reads 16 bytes for each vertex of 12, beyond the end of a shared buffer.
-  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Point3),
-                                            mesh.positions.size());
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+  void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                            sizeof(Point3), mesh.positions.size());
+  void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                           sizeof(mesh.triangles[0]), mesh.triangles.size());
-  if (positions && indices) {
-    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Point3*>(positions));
-    std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene.get(), geometry, id);
-  }
-  rtcReleaseGeometry(geometry);
+  check();  // here: Embree keeps errors by thread
+  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Point3*>(positions));
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
+  rtcCommitGeometry(geometry.get());
   check();
+  return geometry;
 }
 
 void Scene::Embree::check() const {
@@ -127,18 +120,17 @@ void Scene::Embree::check() const {
 }
 
 Scene::Scene(SceneDescription description) : description_(std::move(description)) {
-  for (TriangleMesh& mesh : description_.meshes) {
-    check_mesh(mesh);
+  for (const TriangleMesh& mesh : description_.meshes) {
     if (mesh.material >= description_.materials.size())
       throw_input_error("", fmt::format("mesh \"{}\": has material {}, there are {}", mesh.name, mesh.material,
                                         description_.materials.size()));
     if (mesh.area_light >= static_cast<std::int64_t>(description_.area_lights.size()))
       throw_input_error("", fmt::format("mesh \"{}\": has area light {}, there are {}", mesh.name, mesh.area_light,
                                         description_.area_lights.size()));
-    remove_empty_triangles(mesh);
-    bounds_.extend(mesh.bounds());
   }
-  for (const TriangleMesh& mesh : description_.meshes) shapes_.push_back(triangle_shapes(mesh));
+  auto [shapes, bounds] = prepare_meshes(description_.meshes);
+  shapes_ = std::move(shapes);
+  bounds_ = bounds;
   for (const MaterialPtr& material : description_.materials)
     needs_derivatives_.push_back(material->needs_derivatives());
   emitters_ = Emitters(description_.meshes, description_.area_lights, description_.lights, bounding_sphere());

@@ -13,8 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const bool face_normals : {false, true}) {
     gradslc::TriangleMesh mesh;
     try {
-      mesh =
-          gradslc::parse_obj(text, "fuzz.obj", {.to_world = {}, .face_normals = face_normals, .flip_tex_coords = true});
+      mesh = gradslc::parse_obj(text, "fuzz.obj", {.face_normals = face_normals, .flip_tex_coords = true});
     } catch (const gradslc::Error&) {
       continue;
     }

@@ -135,6 +135,21 @@ Rgb MitsubaProperties::colour(std::string_view name, Rgb default_value) {
   return {channel(0), channel(1), channel(2)};
 }
 
+Point3 MitsubaProperties::point(std::string_view name, Point3 default_value) {
+  const Entry* entry = take(name, {"point"}, "a <point>");
+  if (!entry) return default_value;
+  const auto coordinate = [&](const char* axis) {
+    const auto number = parse_number(document_.required_attribute(entry->element, axis));
+    if (!number) document_.fail(entry->element, fmt::format("{} must be a number", axis), axis);
+    return static_cast<float>(*number);
+  };
+  if (!entry->element.node.attribute("value")) return {coordinate("x"), coordinate("y"), coordinate("z")};
+  const std::string text = value(*entry);
+  const auto numbers = parse_numbers(text);
+  if (!numbers || numbers->size() != 3) fail(name, fmt::format("\"{}\" must be three numbers, not \"{}\"", name, text));
+  return {static_cast<float>((*numbers)[0]), static_cast<float>((*numbers)[1]), static_cast<float>((*numbers)[2])};
+}
+
 Transform MitsubaProperties::transform(std::string_view name) {
   const Entry* entry = take(name, {"transform"}, "a <transform>");
   return entry ? read_transform(document_, entry->element) : Transform();

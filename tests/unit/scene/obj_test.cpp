@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view k_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-TriangleMesh parse(std::string_view text, const ObjOptions& options = {}) {
+TriangleMesh parse(std::string_view text, const MeshFileOptions& options = {.flip_tex_coords = true}) {
   return parse_obj(text, "test.obj", options);
 }
 
@@ -52,7 +52,7 @@ TEST(Obj, SharesVerticesThatAgreeInAllIndices) {
 TEST(Obj, FlipsTextureCoordinatesUnlessToldNotTo) {
   const std::string text = std::string(k_square) + "vt 0.25 0.125 7\nf 1/1 2/1 3/1\n";
   EXPECT_EQ(parse(text).uvs[0], (Vec2{0.25f, 0.875f}));
-  EXPECT_EQ(parse(text, {.to_world = {}, .face_normals = false, .flip_tex_coords = false}).uvs[0],
+  EXPECT_EQ(parse(text, {.face_normals = false, .flip_tex_coords = false}).uvs[0],
             (Vec2{0.25f, 0.125f}));
 }
 
@@ -73,7 +73,7 @@ TEST(Obj, ComputesSmoothNormalsWhereTheFileHasNone) {
   EXPECT_NEAR(mesh.normals[0].x, -std::sqrt(0.5f), 1e-6f);
   for (const Normal3 n : mesh.normals) EXPECT_NEAR(length(as_vec(n)), 1, 1e-6f);
   EXPECT_NEAR(mesh.normals[1].y, 1, 1e-6f);  // the angles at the ridge are equal on both sides
-  EXPECT_TRUE(parse(k_roof, {.to_world = {}, .face_normals = true, .flip_tex_coords = true}).normals.empty());
+  EXPECT_TRUE(parse(k_roof, {.face_normals = true, .flip_tex_coords = true}).normals.empty());
 }
 
 TEST(Obj, NormalsChooseTheSideOfTriangles) {

@@ -1,0 +1,11 @@
+#include "scene/loaders/placement.h"
+
+namespace gradslc {
+
+void place(TriangleMesh& mesh, const Transform& to_world, bool flip) {
+  for (Point3& position : mesh.positions) position = to_world.apply(position);
+  for (Normal3& normal : mesh.normals) normal = to_world.apply(normal);
+  if (flip != (to_world.determinant() < 0)) mesh.flip_normals = !mesh.flip_normals;
+}
+
+}  // namespace gradslc

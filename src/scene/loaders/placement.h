@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/loaders/transform.h"
+#include "scene/mesh.h"
+
+namespace gradslc {
+
+/// Moves a mesh. Normals go by the inverse transpose, so a mirroring map keeps their side although it turns the winding
+/// round. `flip` turns them to the other side.
+void place(TriangleMesh& mesh, const Transform& to_world, bool flip = false);
+
+}  // namespace gradslc
