@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/hash.h"
-#include "film/exr.h"
+#include "core/exr.h"
 #include "scene/loaders/loader.h"
 #include "support/render/method.h"
 
