@@ -140,10 +140,19 @@ class Bitmap final : public TextureMap {
     return {decode_(first[channels_[0]]), decode_(first[channels_[1]]), decode_(first[channels_[2]])};
   }
 
+  /// Decoding is monotonic: the range of the stored values decides.
   void find_range() {
-    min_ = max_ = texel(0, 0);
-    for (int y = 0; y < height(); ++y)
-      for (int x = 0; x < width(); ++x) extend_range(texel(x, y));
+    std::array<Value, 3> low{}, high{};
+    for (std::size_t c = 0; c < 3; ++c) low[c] = high[c] = values_[channels_[c]];
+    const auto step = static_cast<std::size_t>(texels_->channels);
+    const Value* const end = values_ + texels_->resolution.pixels() * step;
+    for (const Value* texel = values_; texel != end; texel += step)
+      for (std::size_t c = 0; c < 3; ++c) {
+        low[c] = std::min(low[c], texel[channels_[c]]);
+        high[c] = std::max(high[c], texel[channels_[c]]);
+      }
+    min_ = {decode_(low[0]), decode_(low[1]), decode_(low[2])};
+    max_ = {decode_(high[0]), decode_(high[1]), decode_(high[2])};
     for (const Wrap wrap : {options_.wrap_u, options_.wrap_v}) {
       if (wrap == Wrap::zero) extend_range(Rgb(0));
       if (wrap == Wrap::one) extend_range(Rgb(1));

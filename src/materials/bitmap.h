@@ -14,7 +14,7 @@ enum class Wrap : std::uint8_t { repeat, mirror, clamp, zero, one };
 /// How stored values become linear ones.
 struct Encoding {
   static constexpr float k_srgb = -1;
-  float gamma = k_srgb;  ///< linear value = stored value ^ gamma; k_srgb: sRGB's curve
+  float gamma = k_srgb;  ///< > 0: linear value = stored value ^ gamma, stored values below 0 as 0; k_srgb: sRGB's curve
 
   float decode(float stored) const;
 };

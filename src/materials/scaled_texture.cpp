@@ -1,5 +1,6 @@
 #include "materials/scaled_texture.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -12,8 +13,14 @@ class ScaledTexture final : public TextureMap {
 
   Rgb eval(Vec2 uv) const override { return factor_ * map_->eval(uv); }
   Vec2 gradient(Vec2 uv) const override { return luminance(factor_) * map_->gradient(uv); }
-  Rgb max_value() const override { return factor_ * map_->max_value(); }
-  Rgb min_value() const override { return factor_ * map_->min_value(); }
+  Rgb max_value() const override {
+    const Rgb a = factor_ * map_->max_value(), b = factor_ * map_->min_value();  // factors may be negative
+    return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
+  }
+  Rgb min_value() const override {
+    const Rgb a = factor_ * map_->max_value(), b = factor_ * map_->min_value();
+    return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)};
+  }
   std::size_t memory_bytes() const override { return sizeof(ScaledTexture) + map_->memory_bytes(); }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,8 @@ struct SceneDescription {
   std::vector<AreaLight> area_lights;
   std::vector<LightPtr> lights;  ///< all others
   PerspectiveCamera camera;
-  std::vector<std::string> notes;  ///< what the file asks for that has no effect here, once each
+  std::vector<std::string> notes;            ///< what the file asks for that has no effect here, once each
+  std::vector<std::filesystem::path> files;  ///< all that the scene was read from, the scene file first
 };
 
 /// Geometry, materials, emitters and camera, ready to trace. Immutable; all queries may run concurrently.
@@ -51,6 +53,7 @@ class Scene {
   const std::vector<MaterialName>& material_names() const { return description_.material_names; }
   const std::vector<LightPtr>& lights() const { return description_.lights; }
   const std::vector<std::string>& notes() const { return description_.notes; }
+  const std::vector<std::filesystem::path>& files() const { return description_.files; }
   Bounds3 bounds() const { return bounds_; }
   BoundingSphere bounding_sphere() const;
   std::size_t triangle_count() const;

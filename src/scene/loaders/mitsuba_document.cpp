@@ -42,6 +42,7 @@ std::string snake_case(std::string_view camel_case) {
 
 MitsubaDocument::MitsubaDocument(const std::filesystem::path& file, const LoadOptions& options)
     : options_(options), definitions_(options.definitions.begin(), options.definitions.end()) {
+  add_file(file);
   read(std::make_unique<XmlDocument>(file), 0);
   check_definitions();
 }
@@ -92,6 +93,7 @@ void MitsubaDocument::read_include(const XmlElement& element, int depth) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     fail(element, fmt::format("included file \"{}\" does not exist", path.string()), "filename");
+  add_file(path);
   read(std::make_unique<XmlDocument>(path), depth + 1);
 }
 
@@ -196,6 +198,10 @@ std::string MitsubaDocument::modern_name(const XmlElement& element, std::string_
 
 std::filesystem::path MitsubaDocument::resolve_path(const XmlElement& element, const std::string& path) const {
   return std::filesystem::path(element.document->file()).parent_path() / path;
+}
+
+void MitsubaDocument::add_file(const std::filesystem::path& file) {
+  if (known_files_.insert(file).second) files_.push_back(file);
 }
 
 void MitsubaDocument::fail(const XmlElement& element, std::string message, std::string_view attribute) const {

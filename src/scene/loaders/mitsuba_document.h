@@ -43,6 +43,10 @@ class MitsubaDocument {
   bool is_legacy(const XmlElement& element) const { return legacy_.contains(element.document); }
   /// A file named in the scene, relative to the file that names it.
   std::filesystem::path resolve_path(const XmlElement& element, const std::string& path) const;
+  /// Remembers a file that the scene is read from; the XML files are known already. Not from several threads.
+  void add_file(const std::filesystem::path& file);
+  /// In the order in which they were first named, each once.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
 
   /// Throws Error (input) at the element or, where it is given, at one of its attributes.
   [[noreturn]] void fail(const XmlElement& element, std::string message, std::string_view attribute = {}) const;
@@ -74,6 +78,8 @@ class MitsubaDocument {
   mutable std::set<std::string, std::less<>> used_definitions_;
   std::vector<std::string> notes_;
   std::set<std::string> known_notes_;
+  std::vector<std::filesystem::path> files_;
+  std::set<std::filesystem::path> known_files_;
 };
 
 /// snake_case of a camelCase name: intIOR -> int_ior, toWorld -> to_world.

@@ -11,6 +11,7 @@
 #include "scene/loaders/mitsuba_properties.h"
 #include "scene/loaders/mitsuba_sensor.h"
 #include "scene/loaders/mitsuba_shapes.h"
+#include "scene/loaders/mitsuba_textures.h"
 
 namespace gradslc {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 class SceneBuilder {
  public:
   SceneBuilder(MitsubaDocument& document, const LoadOptions& options)
-      : document_(document), options_(options), materials_(document) {}
+      : document_(document), options_(options), textures_(document), materials_(document, textures_) {}
 
   SceneDescription build() {
     for (const XmlElement& object : document_.objects()) add(object);
@@ -27,6 +28,7 @@ class SceneBuilder {
     scene_.materials = materials_.take_materials();
     scene_.material_names = materials_.take_names();
     scene_.notes = document_.notes();
+    scene_.files = document_.files();
     return std::move(scene_);
   }
 
@@ -39,6 +41,7 @@ class SceneBuilder {
 
   MitsubaDocument& document_;
   const LoadOptions& options_;
+  MitsubaTextures textures_;
   MitsubaMaterials materials_;
   SceneDescription scene_;
   bool has_sensor_ = false;
@@ -50,6 +53,8 @@ void SceneBuilder::add(const XmlElement& object) {
     add_shape(object);
   } else if (tag == "bsdf") {
     materials_.build(object);
+  } else if (tag == "texture") {
+    textures_.build(object);
   } else if (tag == "sensor") {
     add_sensor(object);
   } else if (tag == "integrator") {
