@@ -10,7 +10,7 @@
 #include "experiments/build_info.h"
 #include "experiments/render.h"
 #include "experiments/sha256.h"
-#include "film/exr.h"
+#include "core/exr.h"
 #include "scene/scene.h"
 
 namespace gradslc {

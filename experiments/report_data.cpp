@@ -12,7 +12,7 @@
 #include "experiments/number_format.h"
 #include "experiments/report_images.h"
 #include "experiments/results_folder.h"
-#include "film/exr.h"
+#include "core/exr.h"
 
 namespace gradslc {
 namespace {

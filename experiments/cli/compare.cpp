@@ -6,7 +6,7 @@
 
 #include "experiments/cli/commands.h"
 #include "experiments/metrics.h"
-#include "film/exr.h"
+#include "core/exr.h"
 
 namespace gradslc {
 namespace {

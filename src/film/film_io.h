@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "film/exr.h"
+#include "core/exr.h"
 #include "film/film.h"
 
 namespace gradslc {

@@ -12,7 +12,7 @@
 
 #include "core/file.h"
 #include "core/hash.h"
-#include "film/exr.h"
+#include "core/exr.h"
 #include "scene/loaders/loader.h"
 #include "support/render/method.h"
 

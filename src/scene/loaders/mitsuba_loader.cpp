@@ -15,6 +15,7 @@
 #include "scene/loaders/mitsuba_properties.h"
 #include "scene/loaders/mitsuba_sensor.h"
 #include "scene/loaders/mitsuba_shapes.h"
+#include "scene/loaders/mitsuba_textures.h"
 
 namespace gradslc {
 namespace {
@@ -23,7 +24,7 @@ namespace {
 class SceneBuilder {
  public:
   SceneBuilder(MitsubaDocument& document, const LoadOptions& options)
-      : document_(document), options_(options), materials_(document) {}
+      : document_(document), options_(options), textures_(document), materials_(document, textures_) {}
 
   SceneDescription build() {
     for (const XmlElement& object : document_.objects()) add(object);
@@ -49,6 +50,7 @@ class SceneBuilder {
 
   MitsubaDocument& document_;
   const LoadOptions& options_;
+  MitsubaTextures textures_;
   MitsubaMaterials materials_;
   MeshList meshes_;
   std::map<pugi::xml_node, std::vector<std::size_t>> groups_;  // meshes of each shapegroup
@@ -62,6 +64,8 @@ void SceneBuilder::add(const XmlElement& object) {
     add_shape(object);
   } else if (tag == "bsdf") {
     materials_.build(object);
+  } else if (tag == "texture") {
+    textures_.build(object);
   } else if (tag == "sensor") {
     add_sensor(object);
   } else if (tag == "integrator") {

@@ -17,8 +17,8 @@ constexpr std::size_t k_max_depth = 64;
 /// What bsdf plug-ins see of their element.
 class MaterialPropertyReader final : public PropertyReader {
  public:
-  MaterialPropertyReader(MitsubaProperties& properties, MitsubaMaterials& materials)
-      : properties_(properties), materials_(materials) {}
+  MaterialPropertyReader(MitsubaProperties& properties, MitsubaMaterials& materials, MitsubaTextures& textures)
+      : properties_(properties), materials_(materials), textures_(textures) {}
 
   bool has(std::string_view name) const override { return properties_.has(name); }
   bool boolean(std::string_view name, bool default_value) override { return properties_.boolean(name, default_value); }
@@ -27,8 +27,10 @@ class MaterialPropertyReader final : public PropertyReader {
     return properties_.text(name, default_value);
   }
   Rgb colour(std::string_view name, Rgb default_value) override { return properties_.colour(name, default_value); }
-  Texture texture(std::string_view name, Rgb default_value) override { return Texture(colour(name, default_value)); }
-  std::vector<Texture> nested_textures() override { return {}; }
+  Texture texture(std::string_view name, Rgb default_value) override {
+    return textures_.property(properties_, name, default_value);
+  }
+  std::vector<Texture> nested_textures() override { return textures_.nested(properties_); }
   void ignore(std::string_view name) override { properties_.ignore(name); }
   std::vector<MaterialPtr> nested_materials() override {
     std::vector<MaterialPtr> nested;
@@ -47,6 +49,7 @@ class MaterialPropertyReader final : public PropertyReader {
  private:
   MitsubaProperties& properties_;
   MitsubaMaterials& materials_;
+  MitsubaTextures& textures_;
   std::string nested_kinds_;  // each after a blank
 };
 
@@ -77,7 +80,7 @@ MitsubaMaterials::Built MitsubaMaterials::make(const XmlElement& bsdf) {
                       "type", "diffuse 0.5 takes its place");
     return {grey_diffuse(), {properties.id(), "unknown"}};
   }
-  MaterialPropertyReader reader(properties, *this);
+  MaterialPropertyReader reader(properties, *this, textures_);
   MaterialPtr material = entry->make(reader);
   properties.finish();
   return {std::move(material), {properties.id(), properties.plugin() + reader.nested_kinds()}};

@@ -10,13 +10,15 @@
 
 #include "materials/material.h"
 #include "scene/loaders/mitsuba_document.h"
+#include "scene/loaders/mitsuba_textures.h"
 
 namespace gradslc {
 
 /// The materials of a scene: each <bsdf> is built once, however often it is referred to.
 class MitsubaMaterials {
  public:
-  explicit MitsubaMaterials(MitsubaDocument& document) : document_(document) {}
+  /// Both must outlive this.
+  MitsubaMaterials(MitsubaDocument& document, MitsubaTextures& textures) : document_(document), textures_(textures) {}
 
   struct Built {
     MaterialPtr material;
@@ -37,6 +39,7 @@ class MitsubaMaterials {
   std::uint32_t add(Built built);
 
   MitsubaDocument& document_;
+  MitsubaTextures& textures_;
   std::map<pugi::xml_node, Built> built_;
   std::set<pugi::xml_node> in_progress_;
   std::map<pugi::xml_node, std::uint32_t> indices_;

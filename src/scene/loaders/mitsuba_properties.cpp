@@ -114,7 +114,7 @@ Rgb MitsubaProperties::colour(std::string_view name, Rgb default_value) {
   const Entry* entry = take(name, {"rgb", "srgb", "spectrum", "float", "texture"}, "an <rgb>, <spectrum> or <float>");
   if (!entry) return default_value;
   if (entry->type == "texture") {
-    document_.unknown(entry->element, fmt::format("\"{}\": textures are not supported; give an <rgb>", name), {},
+    document_.unknown(entry->element, fmt::format("\"{}\" cannot be a texture; give an <rgb>", name), {},
                       "its default takes its place");
     return default_value;
   }
@@ -160,6 +160,27 @@ std::vector<XmlElement> MitsubaProperties::objects(std::string_view kind) {
   std::vector<XmlElement> found;
   for (Entry& entry : entries_)
     if (entry.type == kind) entry.read = true, found.push_back(entry.target);
+  return found;
+}
+
+std::optional<XmlElement> MitsubaProperties::texture_element(std::string_view name) {
+  known_.emplace(name);
+  for (Entry& entry : entries_) {
+    if (entry.name != name || entry.type != "texture") continue;
+    entry.read = true;
+    return entry.target;
+  }
+  return std::nullopt;
+}
+
+std::vector<XmlElement> MitsubaProperties::unread_objects(std::string_view kind) {
+  known_.emplace(kind);
+  std::vector<XmlElement> found;
+  for (Entry& entry : entries_) {
+    if (entry.type != kind || entry.read) continue;
+    entry.read = true;
+    found.push_back(entry.target);
+  }
   return found;
 }
 

@@ -35,6 +35,10 @@ class MitsubaProperties {
   Transform transform(std::string_view name);
   /// The nested or referenced objects of that kind ("bsdf", "emitter" ...), with a name or without.
   std::vector<XmlElement> objects(std::string_view kind);
+  /// The nested or referenced texture of that name; nullopt where there is none or the property is something else.
+  std::optional<XmlElement> texture_element(std::string_view name);
+  /// The nested or referenced objects of that kind that nothing has read yet.
+  std::vector<XmlElement> unread_objects(std::string_view kind);
   /// Accepts a property of any type that has no effect here, and notes it where it is given.
   void ignore(std::string_view name);
 

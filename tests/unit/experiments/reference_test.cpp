@@ -10,7 +10,7 @@
 #include "core/file.h"
 #include "experiments/scene_hash.h"
 #include "fakes.h"
-#include "film/exr.h"
+#include "core/exr.h"
 
 namespace gradslc {
 namespace {

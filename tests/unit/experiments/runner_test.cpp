@@ -12,7 +12,7 @@
 #include "experiments/results_folder.h"
 #include "experiments/sha256.h"
 #include "fakes.h"
-#include "film/exr.h"
+#include "core/exr.h"
 
 namespace gradslc {
 namespace {

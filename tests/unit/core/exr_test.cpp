@@ -1,4 +1,4 @@
-#include "film/exr.h"
+#include "core/exr.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
-#include "unit/film/exr_bytes.h"
+#include "unit/core/exr_bytes.h"
 
 namespace gradslc {
 namespace {
@@ -160,7 +160,7 @@ std::string input_error(const fs::path& path) {
 
 TEST_F(Exr, MissingChannelsAreAnErrorThatNamesThoseThatExist) {
   const std::string message = input_error(file_of(ExrBytes{.channels = {"B", "R", "depth.Z"}}.build(test_bits)));
-  EXPECT_EQ(message, "has no channel G; R, G and B are needed, there are: B, R, depth.Z");
+  EXPECT_EQ(message, "has no channel G; R, G and B, or Y, are needed, there are: B, R, depth.Z");
 }
 
 TEST_F(Exr, SubsampledChannelsAreAnError) {

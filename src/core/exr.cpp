@@ -1,4 +1,4 @@
-#include "film/exr.h"
+#include "core/exr.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -45,7 +45,8 @@ void insert_slices(const std::string& layer, const RgbImage& image, const Imath:
 }
 void insert_slices(const std::string& layer, const Image<float>& image, const Imath::V2i& origin,
                    Imf::FrameBuffer& buffer) {
-  buffer.insert(layer + ".Y", float_slice(&image[0], 1, origin, static_cast<std::size_t>(image.width())));
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  buffer.insert(prefix + "Y", float_slice(&image[0], 1, origin, static_cast<std::size_t>(image.width())));
 }
 
 /// `layer` and `channel` of a channel's full name, parted at the last dot.
@@ -69,7 +70,7 @@ std::map<std::string, ExrLayer> allocate_layers(const Imf::ChannelList& channels
   for (const auto& [layer, names] : found) {
     if (names.contains("R") && names.contains("G") && names.contains("B"))
       layers.emplace(layer, RgbImage(resolution));
-    else if (names.contains("Y") && !layer.empty())
+    else if (names.contains("Y"))
       layers.emplace(layer, Image<float>(resolution));
   }
   return layers;
@@ -85,13 +86,13 @@ double pixel_count(const Imath::Box2i& box) {
   return (static_cast<double>(box.max.x) - box.min.x + 1) * (static_cast<double>(box.max.y) - box.min.y + 1);
 }
 
-/// Damaged headers ask for any size. No more memory is taken than 1 GiB, or what a file of `file_size` bytes may hold
+/// Damaged headers ask for any size. No more memory is taken than 256 MiB, or what a file of `file_size` bytes may hold
 /// when compressed two thousandfold (deflate reaches 1032).
 void check_size(const std::filesystem::path& path, const Imf::Header& header, std::size_t file_size) {
   double channels = 0;
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) ++channels;
   const double pixels = pixel_count(header.dataWindow()) + pixel_count(header.displayWindow());
-  const double limit = std::max(0x1p30, 2000.0 * static_cast<double>(file_size));
+  const double limit = std::max(0x1p28, 2000.0 * static_cast<double>(file_size));
   if (pixels * channels * sizeof(float) > limit)
     throw_input_error(path.string(), fmt::format("is damaged: its header asks for {:.3g} pixels of {} channels, more "
                                                  "than a file of {} bytes holds",
@@ -121,16 +122,29 @@ std::map<std::string, std::string> string_attributes(const Imf::Header& header) 
   return attributes;
 }
 
-ExrImage decode(const std::filesystem::path& path, const std::string& bytes) {
+void check_channels(const std::filesystem::path& path, const Imf::ChannelList& channels) {
+  const bool coloured = channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
+  if (!coloured && channels.findChannel("Y")) return;
+  for (const char* name : {"R", "G", "B"})
+    if (!channels.findChannel(name))
+      throw_input_error(path.string(), fmt::format("has no channel {}; R, G and B, or Y, are needed, there are: {}",
+                                                   name, channel_names(channels)));
+}
+
+RgbImage to_rgb(RgbImage image) { return image; }
+RgbImage to_rgb(const Image<float>& grey) {
+  RgbImage image(grey.resolution());
+  std::transform(grey.begin(), grey.end(), image.begin(), [](float value) { return Rgb(value); });
+  return image;
+}
+
+ExrImage decode(const std::string& bytes, const std::filesystem::path& path) {
   Imf::StdISStream stream;
   stream.str(bytes);
   Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
   const Imf::ChannelList& channels = header.channels();
-  for (const char* name : {"R", "G", "B"})
-    if (!channels.findChannel(name))
-      throw_input_error(path.string(), fmt::format("has no channel {}; R, G and B are needed, there are: {}", name,
-                                                   channel_names(channels)));
+  check_channels(path, channels);
   check_size(path, header, bytes.size());
 
   const Imath::Box2i window = header.dataWindow();
@@ -144,7 +158,7 @@ ExrImage decode(const std::filesystem::path& path, const std::string& bytes) {
 
   for (auto& [name, layer] : result.layers)
     std::visit([&](auto& image) { image = fit_to_display(std::move(image), window, header.displayWindow()); }, layer);
-  result.image = std::get<RgbImage>(std::move(result.layers.at("")));
+  result.image = std::visit([](auto&& image) { return to_rgb(std::move(image)); }, std::move(result.layers.at("")));
   result.layers.erase("");
   return result;
 }
@@ -190,11 +204,12 @@ void write_exr(const std::filesystem::path& path, const ExrImage& content) {
   write_file_atomically(path, bytes);
 }
 
-ExrImage read_exr(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+ExrImage read_exr(const std::filesystem::path& path) { return decode_exr(read_file(path), path); }
+
+ExrImage decode_exr(const std::string& bytes, const std::filesystem::path& path) {
   use_all_threads();
   try {
-    return decode(path, bytes);
+    return decode(bytes, path);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& exception) {
