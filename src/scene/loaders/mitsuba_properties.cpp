@@ -135,6 +135,23 @@ Rgb MitsubaProperties::colour(std::string_view name, Rgb default_value) {
   return {channel(0), channel(1), channel(2)};
 }
 
+Vec3 MitsubaProperties::vector(std::string_view name, Vec3 default_value) {
+  const Entry* entry = take(name, {"vector", "point"}, "a <vector> or <point>");
+  if (!entry) return default_value;
+  if (entry->element.node.attribute("value")) {
+    const auto numbers = parse_numbers(value(*entry));
+    if (!numbers || numbers->size() != 3) fail(name, fmt::format("\"{}\" must be three numbers", name));
+    return {static_cast<float>((*numbers)[0]), static_cast<float>((*numbers)[1]), static_cast<float>((*numbers)[2])};
+  }
+  const auto component = [&](const char* axis) {
+    const std::string text = document_.required_attribute(entry->element, axis);
+    const std::optional<double> number = parse_number(text);
+    if (!number) document_.fail(entry->element, fmt::format("{} must be a number, not \"{}\"", axis, text), axis);
+    return static_cast<float>(*number);
+  };
+  return {component("x"), component("y"), component("z")};
+}
+
 Transform MitsubaProperties::transform(std::string_view name) {
   const Entry* entry = take(name, {"transform"}, "a <transform>");
   return entry ? read_transform(document_, entry->element) : Transform();

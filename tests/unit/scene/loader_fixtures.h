@@ -35,8 +35,17 @@ inline std::string refusal(std::string_view body, const LoadOptions& options = {
   return "accepted";
 }
 
-inline Rgb reflectance(const Material& material) {
-  return std::get<DiffuseMaterial>(material.kind).reflectance.eval({});
+/// Colour of a material as seen from its front.
+inline Rgb reflectance(const MaterialPtr& material) {
+  Shading shading;
+  material->shade({}, {0, 0, 1}, shading);
+  return shading.bsdf.albedo();
+}
+
+inline bool is_two_sided(const MaterialPtr& material) {
+  Shading shading;
+  material->shade({}, {0, 0, -1}, shading);
+  return shading.frame.n.z < 0;
 }
 
 /// Files in a folder of their own, removed at the end.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "materials/plugins.h"
 #include "scene/loaders/transform.h"
 #include "scene/scene.h"
 
@@ -42,7 +43,8 @@ inline TriangleMesh parallelogram(Point3 corner, Vec3 u, Vec3 v) {
 inline SceneDescription describe(std::vector<TriangleMesh> meshes, std::vector<AreaLight> lights = {}) {
   SceneDescription description;
   description.meshes = std::move(meshes);
-  description.materials = {{.name = "grey", .kind = DiffuseMaterial{Texture(Rgb(0.5f))}, .two_sided = true}};
+  const MaterialPtr grey = make_diffuse(Texture(Rgb(0.5f)));
+  description.materials = {make_two_sided(grey, grey)};
   description.area_lights = std::move(lights);
   return description;
 }
