@@ -186,7 +186,7 @@ void SceneBuilder::add_light(const XmlElement& emitter) {
         emitter, fmt::format("unknown emitter \"{}\"{}", properties.plugin(), suggestion(properties.plugin(), names)),
         "type");
   }
-  scene_.lights.push_back(entry->make(document_, properties));
+  for (LightPtr& light : entry->make(document_, properties)) scene_.lights.push_back(std::move(light));
   properties.ignore("sampling_weight");
   properties.finish();
 }

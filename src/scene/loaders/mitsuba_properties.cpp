@@ -135,19 +135,27 @@ Rgb MitsubaProperties::colour(std::string_view name, Rgb default_value) {
   return {channel(0), channel(1), channel(2)};
 }
 
-Point3 MitsubaProperties::point(std::string_view name, Point3 default_value) {
-  const Entry* entry = take(name, {"point"}, "a <point>");
+Vec3 MitsubaProperties::vector(std::string_view name, Vec3 default_value) {
+  const Entry* entry = take(name, {"vector", "point"}, "a <vector> or <point>");
   if (!entry) return default_value;
-  const auto coordinate = [&](const char* axis) {
-    const auto number = parse_number(document_.required_attribute(entry->element, axis));
-    if (!number) document_.fail(entry->element, fmt::format("{} must be a number", axis), axis);
+  if (entry->element.node.attribute("value")) {
+    const std::string text = value(*entry);
+    const auto numbers = parse_numbers(text);
+    if (!numbers || numbers->size() != 3)
+      fail(name, fmt::format("\"{}\" must be three numbers, not \"{}\"", name, text));
+    return {static_cast<float>((*numbers)[0]), static_cast<float>((*numbers)[1]), static_cast<float>((*numbers)[2])};
+  }
+  const auto component = [&](const char* axis) {
+    const std::string text = document_.required_attribute(entry->element, axis);
+    const std::optional<double> number = parse_number(text);
+    if (!number) document_.fail(entry->element, fmt::format("{} must be a number, not \"{}\"", axis, text), axis);
     return static_cast<float>(*number);
   };
-  if (!entry->element.node.attribute("value")) return {coordinate("x"), coordinate("y"), coordinate("z")};
-  const std::string text = value(*entry);
-  const auto numbers = parse_numbers(text);
-  if (!numbers || numbers->size() != 3) fail(name, fmt::format("\"{}\" must be three numbers, not \"{}\"", name, text));
-  return {static_cast<float>((*numbers)[0]), static_cast<float>((*numbers)[1]), static_cast<float>((*numbers)[2])};
+  return {component("x"), component("y"), component("z")};
+}
+
+Point3 MitsubaProperties::point(std::string_view name, Point3 default_value) {
+  return Point3() + vector(name, from_origin(default_value));
 }
 
 Transform MitsubaProperties::transform(std::string_view name) {

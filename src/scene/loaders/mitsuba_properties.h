@@ -31,6 +31,8 @@ class MitsubaProperties {
   float real(std::string_view name, float default_value);
   std::string text(std::string_view name, std::string_view default_value);
   Rgb colour(std::string_view name, Rgb default_value);
+  /// Of a <vector> or <point>: attributes x, y and z, or `value` with three numbers.
+  Vec3 vector(std::string_view name, Vec3 default_value);
   Point3 point(std::string_view name, Point3 default_value);
   Transform transform(std::string_view name);
   /// The nested or referenced objects of that kind ("bsdf", "emitter" ...), with a name or without.
