@@ -21,4 +21,7 @@ struct Texels {
   }
 };
 
+/// The image in linear RGB: integers decoded from sRGB, grey for all three channels, without alpha.
+RgbImage linear_rgb(const Texels& texels);
+
 }  // namespace gradslc

@@ -13,7 +13,7 @@
 #include "scene/lights/environment_map.h"
 #include "scene/lights/point.h"
 #include "scene/lights/spot.h"
-#include "scene/loaders/environment_image.h"
+#include "scene/loaders/images.h"
 
 namespace gradslc {
 namespace {
@@ -83,10 +83,11 @@ std::vector<LightPtr> make_envmap(MitsubaDocument& document, MitsubaProperties& 
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
     properties.fail("filename", fmt::format("file \"{}\" does not exist", path.string()));
+  document.add_file(path);
   const float scale = non_negative_real(properties, "scale", 1);
   const Orientation orientation = read_orientation(properties);
   for (const char* name : {"gamma", "cache", "mis_compensation"}) properties.ignore(name);
-  RgbImage map = read_environment_image(path);
+  RgbImage map = linear_rgb(read_image(path));
   scale_radiance(map, scale, document, properties);
   auto light = std::make_shared<const EnvironmentMap>(std::move(map), orientation);
   if (!is_finite(light->integral())) properties.fail("filename", "the map is too bright: its integral is not finite");

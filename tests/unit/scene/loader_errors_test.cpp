@@ -46,7 +46,7 @@ TEST(LoaderErrors, NameWhatIsNotKnown) {
        "test.xml:2:26: error: /scene/shape/sampler: shape \"rectangle\" has no use for a <sampler>"},
       {R"(<shape type="rectangle"><emitter type="point"/></shape>)",
        "test.xml:2:34: error: /scene/shape/emitter: unknown emitter \"point\" in a shape; known: area"},
-      {R"(<emitter type="sunsky"/>)", "test.xml:2:10: error: /scene/emitter: unknown emitter \"sunsky\"; known: area"},
+      {R"(<emitter type="spots"/>)", "test.xml:2:10: error: /scene/emitter: unknown emitter \"spots\"; did you mean \"spot\"?"},
       {R"(<emitter type="area"/>)", "test.xml:2:2: error: /scene/emitter: an area emitter must stand inside a <shape>"},
       {R"(<medium type="homogeneous"/>)", "test.xml:2:2: error: /scene/medium: unknown element <medium> in <scene>"},
       {R"(<shape type="rectangle"><colour name="x"/></shape>)",
@@ -97,7 +97,7 @@ TEST(LoaderErrors, SayWhatValuesShouldBe) {
             "test.xml:2:51: error: /scene/bsdf/spectrum: \"reflectance\": spectra by wavelength are not supported; "
             "give an <rgb>");
   EXPECT_EQ(diffuse(R"(<texture name="reflectance" type="bitmap"/>)"),
-            "test.xml:2:23: error: /scene/bsdf/texture: \"reflectance\": textures are not supported; give an <rgb>");
+            "test.xml:2:23: error: /scene/bsdf/texture: a bitmap needs a filename");
   EXPECT_EQ(diffuse(R"(<rgb name="reflectance"/>)"),
             "test.xml:2:23: error: /scene/bsdf/rgb: attribute \"value\" is missing");
   EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value=""/>)"),
