@@ -86,7 +86,7 @@ class Run {
 
   void run_scene(const ScenePlan& plan) {
     const Scene scene = makers_.scene(plan);
-    const std::string hash = scene_hash(scene, plan.file);
+    const std::string hash = scene_hash(scene);
     RenderSettings settings = experiment_.settings;
     if (plan.max_depth) settings.max_depth = *plan.max_depth;
     log(fmt::format("{}: {}x{}, {} triangles", plan.name, scene.camera().resolution().width,

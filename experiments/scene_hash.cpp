@@ -49,9 +49,9 @@ void add_camera(Sha256& hash, const PerspectiveCamera& camera) {
 
 }  // namespace
 
-std::string scene_hash(const Scene& scene, const std::filesystem::path& file) {
+std::string scene_hash(const Scene& scene) {
   Sha256 hash;
-  add_text(hash, sha256_of_file(file));
+  for (const std::filesystem::path& file : scene.files()) add_text(hash, sha256_of_file(file));
   hash.add_number(scene.meshes().size());
   for (const TriangleMesh& mesh : scene.meshes()) add_mesh(hash, mesh);
   const Rgb power = scene.emitters().power();

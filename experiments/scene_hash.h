@@ -1,15 +1,13 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 namespace gradslc {
 
 class Scene;
 
-/// SHA-256 over what a scene looks like to an integrator: the bytes of its file, all meshes, the camera's rays, the
-/// emitted power, and every material's name, sides and albedo on a grid of texture coordinates. So a changed mesh,
-/// include or texture gives another hash even if the scene file's own bytes are the same.
-std::string scene_hash(const Scene& scene, const std::filesystem::path& file);
+/// SHA-256 over the bytes of all files that the scene was read from, all meshes, the emitted power and the camera's
+/// rays: a changed mesh, include, texture or option gives another hash even if the scene file's own bytes are the same.
+std::string scene_hash(const Scene& scene);
 
 }  // namespace gradslc

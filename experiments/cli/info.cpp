@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "experiments/cli/commands.h"
-#include "scene/loaders/loader.h"
 #include "scene/inventory.h"
+#include "scene/loaders/loader.h"
 
 namespace gradslc {
 namespace {
@@ -69,13 +69,15 @@ void print_text(const SceneInventory& s) {
              megabytes(s.geometry_bytes + s.texture_bytes + s.light_bytes), megabytes(s.geometry_bytes),
              megabytes(s.texture_bytes), megabytes(s.light_bytes));
   if (s.delta_light_on_delta_lobes)
-    fmt::print("note       light of point, spot or directional emitters that a mirror or glass scatters first is in no "
-               "method's image\n");
+    fmt::print(
+        "note       light of point, spot or directional emitters that a mirror or glass scatters first is in no "
+        "method's image\n");
   for (const std::string& note : s.notes) fmt::print("note       {}\n", note);
 }
 
 int info(const InfoArguments& arguments) {
-  const SceneInventory inventory = take_inventory(Scene(load_scene(arguments.scene, {.permissive = arguments.permissive})));
+  const SceneInventory inventory =
+      take_inventory(Scene(load_scene(arguments.scene, {.permissive = arguments.permissive})));
   if (arguments.print_json)
     fmt::print("{}\n", as_json(inventory).dump(2));
   else

@@ -32,7 +32,8 @@ SceneInventory take_inventory(const Scene& scene) {
   inventory.triangles = scene.triangle_count();
   inventory.bounds = scene.bounds();
   for (const MaterialName& name : scene.material_names()) ++inventory.materials[name.kind];
-  for (const TextureMap* map : texture_maps(scene)) ++inventory.textures, inventory.texture_bytes += map->memory_bytes();
+  for (const TextureMap* map : texture_maps(scene))
+    ++inventory.textures, inventory.texture_bytes += map->memory_bytes();
   for (const TriangleMesh& mesh : scene.meshes())
     if (mesh.area_light >= 0) ++inventory.lights["area"];
   bool delta_lights = false;

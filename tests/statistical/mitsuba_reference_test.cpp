@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <ostream>
 
+#include "core/exr.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/exr.h"
 #include "scene/loaders/loader.h"
 #include "support/render/method.h"
 
@@ -56,13 +56,14 @@ double local_variance(const std::vector<double>& a, const std::vector<double>& b
 }
 
 struct ReferenceScene {
-  const char* name;         ///< of the scene's folder and of the references
-  const char* emitter;      ///< type of an <emitter> that the reference's own environment map takes the place of, or null
-  std::uint32_t passes;     ///< per run
+  const char* name;      ///< of the scene's folder and of the references
+  const char* emitter;   ///< type of an <emitter> that the reference's own environment map takes the place of, or null
+  std::uint32_t passes;  ///< per run
 };
 void PrintTo(const ReferenceScene& scene, std::ostream* stream) { *stream << scene.name; }
 
-/// The scene file's text with the whole <emitter> of that type replaced by the map that the reference was rendered with.
+/// The scene file's text with the whole <emitter> of that type replaced by the map that the reference was rendered
+/// with.
 std::string with_reference_map(std::string text, const std::string& type, const std::filesystem::path& map) {
   const std::size_t begin = text.find("<emitter type=\"" + type + "\"");
   const std::size_t end = text.find("</emitter>", begin);
@@ -110,8 +111,8 @@ std::vector<Moments> render_blocks(const Scene& scene, int max_depth, const Comp
 }
 
 /// False alarms: a block differs beyond its noise at |z| > 3.5 with Student's t of 7 degrees of freedom at least, in
-/// 1 % of cases; that more than 5 % of over a hundred blocks do so has a probability below 1e-3, and they must differ by
-/// more than 3 % besides.
+/// 1 % of cases; that more than 5 % of over a hundred blocks do so has a probability below 1e-3, and they must differ
+/// by more than 3 % besides.
 void expect_agreement(const std::string& label, const Blocks& blocks, int columns) {
   const double reference_mean = (mean_of(blocks.a) + mean_of(blocks.b)) / 2;
   const double ratio = blocks.our_mean() / reference_mean;

@@ -13,6 +13,7 @@
 #include "core/hash.h"
 #include "experiments/experiment.h"
 #include "experiments/makers.h"
+#include "materials/plugins.h"
 #include "scene/scene.h"
 
 namespace gradslc::fakes {
@@ -91,18 +92,19 @@ class FakeReconstruction final : public Reconstruction {
   double seconds_;
 };
 
-inline Scene fake_scene(Resolution resolution = {6, 4}, float size = 1) {
+inline SceneDescription fake_description(Resolution resolution, float size) {
   SceneDescription description;
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
   mesh.triangles = {{0, 1, 2}};
   description.meshes.push_back(mesh);
-  Material material;
-  material.name = "grey";
-  material.kind = DiffuseMaterial{Texture(Rgb(0.5f))};
-  description.materials.push_back(material);
+  description.materials.push_back(make_diffuse(Texture(Rgb(0.5f))));
   description.camera = PerspectiveCamera(resolution, {0, 0, -3}, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}, 1, 1);
-  return Scene(std::move(description));
+  return description;
+}
+
+inline Scene fake_scene(Resolution resolution = {6, 4}, float size = 1) {
+  return Scene(fake_description(resolution, size));
 }
 
 /// Makes fakes by the methods' names; `spt`, which references use, is made by its integrator's name.

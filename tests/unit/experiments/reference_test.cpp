@@ -7,10 +7,10 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/exr.h"
 #include "core/file.h"
 #include "experiments/scene_hash.h"
 #include "fakes.h"
-#include "core/exr.h"
 
 namespace gradslc {
 namespace {
@@ -115,12 +115,17 @@ TEST(SceneHash, SeesTheFileTheMeshesAndTheCamera) {
   const fakes::TemporaryFolder folder("scene_hash");
   const std::filesystem::path file = folder.path() / "scene.xml";
   write_file_atomically(file, "one");
-  const std::string hash = scene_hash(fakes::fake_scene({6, 4}, 1), file);
-  EXPECT_EQ(scene_hash(fakes::fake_scene({6, 4}, 1), file), hash);
-  EXPECT_NE(scene_hash(fakes::fake_scene({6, 4}, 2), file), hash) << "mesh";
-  EXPECT_NE(scene_hash(fakes::fake_scene({4, 6}, 1), file), hash) << "camera";
+  const auto hash_of = [&](Resolution resolution, float size) {
+    SceneDescription description = fakes::fake_description(resolution, size);
+    description.files = {file};
+    return scene_hash(Scene(std::move(description)));
+  };
+  const std::string hash = hash_of({6, 4}, 1);
+  EXPECT_EQ(hash_of({6, 4}, 1), hash);
+  EXPECT_NE(hash_of({6, 4}, 2), hash) << "mesh";
+  EXPECT_NE(hash_of({4, 6}, 1), hash) << "camera";
   write_file_atomically(file, "two");
-  EXPECT_NE(scene_hash(fakes::fake_scene({6, 4}, 1), file), hash) << "file";
+  EXPECT_NE(hash_of({6, 4}, 1), hash) << "file";
 }
 
 TEST(ReferenceFolder, IsSharedWhereTheEnvironmentSaysSo) {

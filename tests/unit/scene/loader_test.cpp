@@ -74,7 +74,8 @@ TEST(Loader, ReadsOurOwnCornellBox) {
 }
 
 TEST(Loader, TakesAnInventoryOfTheScene) {
-  const SceneInventory inventory = take_inventory(Scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml")));
+  const SceneInventory inventory =
+      take_inventory(Scene(load_scene(GRADSLC_SOURCE_DIR "/scenes/cornell-box/scene.xml")));
   EXPECT_EQ(inventory.triangles, 36u);
   EXPECT_EQ(inventory.meshes, 8u);
   EXPECT_EQ(inventory.materials, (std::map<std::string, int>{{"diffuse", 1}, {"twosided diffuse", 3}}));
