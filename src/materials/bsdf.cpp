@@ -135,6 +135,14 @@ bool Bsdf::transmits(const LobeSelection& lobes) const {
   });
 }
 
+Rgb Bsdf::straight_transmittance(Vec3 direction) const {
+  Rgb sum;
+  for (const Entry& entry : entries_)
+    if (const auto* straight = std::get_if<StraightTransmission>(&entry.lobe))
+      sum += entry.weight * straight->energy(direction);
+  return sum;
+}
+
 std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) const {
   Rgb sum;
   for (const Entry& entry : entries_) {

@@ -7,8 +7,14 @@
 #include "core/rgb.h"
 #include "core/vec.h"
 #include "materials/lobes.h"
+#include "materials/lobes/coated_diffuse.h"
 #include "materials/lobes/lambert.h"
-#include "materials/lobes/smooth_conductor.h"
+#include "materials/lobes/microfacet_reflection.h"
+#include "materials/lobes/oren_nayar.h"
+#include "materials/lobes/rough_dielectric.h"
+#include "materials/lobes/smooth_dielectric.h"
+#include "materials/lobes/specular_reflection.h"
+#include "materials/lobes/straight_transmission.h"
 
 namespace gradslc {
 
@@ -23,7 +29,9 @@ namespace gradslc {
 ///   eval(wo, wi), pdf_solid_angle(known, w)  as in Bsdf,
 ///   reflection_bound(known)      of pi f |cos_w|,
 ///   max_pi_f(known)              an upper bound of pi f over the other direction, largest channel, finite.
-using Lobe = std::variant<Lambert, SmoothConductor>;
+using Lobe = std::variant<Lambert, OrenNayar, SmoothCoatedDiffuse, RoughCoatedDiffuse, SmoothConductor, SmoothCoat,
+                          ThinPaneReflection, StraightTransmission, SmoothDielectric, RoughConductor, RoughCoat,
+                          RoughDielectric>;
 
 /// A BSDF at one surface point, its textures looked up: a plain value, the sum of its lobes. Directions are unit, in
 /// the local frame whose +z is the shading normal, and point away from the surface: `wo` towards where light goes (the
@@ -60,6 +68,8 @@ class Bsdf {
   bool has(const LobeSelection& lobes) const;
   /// Whether any of the selected lobes scatters to the other side.
   bool transmits(const LobeSelection& lobes) const;
+  /// Share of the light that passes straight through (masks, thin panes), for rays in either sense along `direction`.
+  Rgb straight_transmittance(Vec3 direction) const;
   /// pi f of the connectable lobes where that is the same for all directions on the known one's side: Lambertian
   /// ones only. nullopt elsewhere.
   std::optional<Rgb> lambert_albedo(Vec3 known, const LobeSelection& lobes) const;
@@ -71,5 +81,6 @@ class Bsdf {
  private:
   boost::container::static_vector<Entry, k_max_lobes> entries_;
 };
+static_assert(sizeof(Bsdf::Entry) <= 80, "BSDFs are copied for each hit");
 
 }  // namespace gradslc

@@ -25,4 +25,19 @@ Rgb fresnel_conductor(float cos_theta, Rgb eta, Rgb k) {
           fresnel_conductor(cos_theta, eta.b, k.b)};
 }
 
+float diffuse_fresnel_reflectance(float eta) {
+  // What passes from inside and from outside differs by eta^2, as 2 cos dcos does between both sides (Snell's law).
+  // From the less dense side the integrand has no kink.
+  if (eta < 1) return 1 - eta * eta * (1 - diffuse_fresnel_reflectance(1 / eta));
+  constexpr int intervals =
+      2048;  // of Simpson's rule over sqrt(cos), in which the integrand is smooth at grazing angles
+  double sum = 0;
+  for (int i = 0; i <= intervals; ++i) {
+    const double x = static_cast<double>(i) / intervals;
+    const double weight = i == 0 || i == intervals ? 1 : i % 2 == 1 ? 4 : 2;
+    sum += weight * 4 * x * x * x * fresnel_dielectric(static_cast<float>(x * x), eta).reflectance;
+  }
+  return static_cast<float>(sum / (3 * intervals));
+}
+
 }  // namespace gradslc

@@ -41,6 +41,10 @@ class Material {
   virtual bool needs_derivatives() const { return false; }
   /// Whether shade() may turn the frame in another way than to the other side.
   virtual bool bends_normals() const { return false; }
+  /// Whether light may pass to the other side.
+  virtual bool transmits() const { return false; }
+  /// Whether shade() turns the frame to the other side where `known` comes from there.
+  virtual bool turns_frame() const { return false; }
   /// Textures that it and what is nested in it refer to; may hold constants.
   virtual std::vector<Texture> textures() const { return {}; }
 };

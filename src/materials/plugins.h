@@ -8,8 +8,32 @@ namespace gradslc {
 MaterialPtr make_diffuse(PropertyReader& properties);
 MaterialPtr make_diffuse(Texture reflectance);
 
+MaterialPtr make_rough_diffuse(PropertyReader& properties);
+
 MaterialPtr make_conductor(PropertyReader& properties);
 MaterialPtr make_mirror(Texture specular_reflectance);
+
+MaterialPtr make_rough_conductor(PropertyReader& properties);
+MaterialPtr make_rough_mirror(MicrofacetType type, float alpha, Texture specular_reflectance);
+
+/// `eta` here and below: index of refraction inside over the one outside, > 0.
+MaterialPtr make_dielectric(PropertyReader& properties);
+MaterialPtr make_dielectric(float eta);
+MaterialPtr make_thin_dielectric(PropertyReader& properties);
+MaterialPtr make_thin_dielectric(float eta);
+MaterialPtr make_rough_dielectric(PropertyReader& properties);
+MaterialPtr make_rough_dielectric(MicrofacetType type, float alpha, float eta);
+
+MaterialPtr make_plastic(PropertyReader& properties);
+MaterialPtr make_plastic(float eta, Texture diffuse_reflectance, bool nonlinear);
+MaterialPtr make_rough_plastic(PropertyReader& properties);
+MaterialPtr make_rough_plastic(MicrofacetType type, float alpha, float eta, Texture diffuse_reflectance,
+                               bool nonlinear);
+
+MaterialPtr make_null(PropertyReader& properties);
+MaterialPtr make_mask(PropertyReader& properties);
+MaterialPtr make_mask(Texture opacity, MaterialPtr nested);
+MaterialPtr make_blend(PropertyReader& properties);
 
 MaterialPtr make_two_sided(PropertyReader& properties);
 MaterialPtr make_two_sided(MaterialPtr front, MaterialPtr back);

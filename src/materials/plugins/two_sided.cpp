@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "materials/plugins.h"
+#include "materials/plugins/properties.h"
 
 namespace gradslc {
 namespace {
@@ -30,13 +31,9 @@ class TwoSidedMaterial final : public Material {
   int max_lobes() const override { return std::max(front_->max_lobes(), back_->max_lobes()); }
   bool needs_derivatives() const override { return front_->needs_derivatives() || back_->needs_derivatives(); }
   bool bends_normals() const override { return front_->bends_normals() || back_->bends_normals(); }
+  bool turns_frame() const override { return true; }
   std::vector<Texture> textures() const override {
-    std::vector<Texture> textures = front_->textures();
-    if (back_ != front_) {
-      const std::vector<Texture> more = back_->textures();
-      textures.insert(textures.end(), more.begin(), more.end());
-    }
-    return textures;
+    return back_ == front_ ? front_->textures() : joined(front_->textures(), back_->textures());
   }
 
  private:
@@ -49,6 +46,8 @@ MaterialPtr make_two_sided(PropertyReader& properties) {
   const std::vector<MaterialPtr> nested = properties.nested_materials();
   if (nested.empty() || nested.size() > 2)
     properties.fail("", "a twosided bsdf needs one bsdf inside, or two (front and back)");
+  if (nested.front()->transmits() || nested.back()->transmits())
+    properties.fail("", "a twosided bsdf must not hold one that transmits light");
   return make_two_sided(nested.front(), nested.back());
 }
 

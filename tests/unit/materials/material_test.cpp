@@ -1,48 +1,20 @@
+// Plug-ins as scene files make them: names, defaults, errors.
+
 #include "materials/material.h"
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
-#include <stdexcept>
-#include <string>
+
+#include "materials/plugins.h"
+#include "unit/materials/fake_properties.h"
 
 namespace gradslc {
 namespace {
 
-struct BadProperty : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+constexpr Vec3 k_up{0, 0, 1}, k_down{0, 0, -1};
 
-/// Properties from tables; a bad one throws BadProperty with the property's name.
-class FakeProperties final : public PropertyReader {
- public:
-  std::map<std::string, std::string, std::less<>> texts;
-  std::map<std::string, Rgb, std::less<>> colours;
-  std::vector<Material> nested;
-
-  bool boolean(std::string_view, bool default_value) override { return default_value; }
-  float real(std::string_view, float default_value) override { return default_value; }
-  std::string text(std::string_view name, std::string_view default_value) override {
-    const auto found = texts.find(name);
-    return found == texts.end() ? std::string(default_value) : found->second;
-  }
-  Rgb colour(std::string_view name, Rgb default_value) override {
-    const auto found = colours.find(name);
-    return found == colours.end() ? default_value : found->second;
-  }
-  Texture texture(std::string_view name, Rgb default_value) override { return Texture(colour(name, default_value)); }
-  std::vector<Material> nested_materials() override { return nested; }
-  void fail(std::string_view name, const std::string& message) const override {
-    throw BadProperty(std::string(name) + ": " + message);
-  }
-};
-
-Material make(std::string_view name, FakeProperties properties = {}) {
-  for (const BsdfEntry& entry : bsdf_registry())
-    if (entry.name == name) return entry.make(properties);
-  throw std::logic_error("not in the registry");
-}
+Rgb albedo(const MaterialPtr& material, Vec3 known = k_up) { return shade(*material, known).bsdf.albedo(); }
 
 TEST(BsdfRegistry, NamesAreUnique) {
   std::set<std::string> names;
@@ -50,46 +22,78 @@ TEST(BsdfRegistry, NamesAreUnique) {
 }
 
 TEST(DiffuseMaterial, HasTheFormatsDefaultAndTakesItsReflectance) {
-  EXPECT_EQ(make("diffuse").resolve({}).lambert_albedo(), Rgb(0.5f));
+  const Bsdf grey = shade(*make_plugin("diffuse"), k_up).bsdf;
+  EXPECT_EQ(grey.albedo(), Rgb(0.5f));
+  EXPECT_TRUE(grey.lambert_albedo({0, 0, 1}, LobeSelection()).has_value());
   FakeProperties red;
   red.colours["reflectance"] = Rgb(0.9f, 0.1f, 0);
-  const Material material = make("diffuse", red);
-  EXPECT_EQ(material.resolve({}).albedo(), Rgb(0.9f, 0.1f, 0));
-  EXPECT_FALSE(material.two_sided);
-  EXPECT_EQ(material.max_connectable_albedo(LobeSelection()), 0.9f);
-  EXPECT_FALSE(material.has_other_lobes(LobeSelection()));
+  const MaterialPtr material = make_plugin("diffuse", red);
+  EXPECT_EQ(albedo(material), Rgb(0.9f, 0.1f, 0));
+  EXPECT_FALSE(material->turns_frame());
+  EXPECT_EQ(material->max_connectable_pi_f(LobeSelection()), 0.9f);
+  EXPECT_FALSE(material->has_other_lobes(LobeSelection()));
 }
 
 TEST(ConductorMaterial, IsCopperByDefaultAndAMirrorByName) {
-  const Vec3 up{0, 0, 1};
-  const auto reflectance = [&](const Material& material) {
-    return material.resolve({}).sample(up, 0, {}, LobeSelection()).value().weight;
+  const auto reflectance = [&](const MaterialPtr& material) {
+    return shade(*material, k_up).bsdf.sample(k_up, 0, {}, LobeSelection()).value().weight;
   };
-  const Rgb copper = reflectance(make("conductor"));
+  const Rgb copper = reflectance(make_plugin("conductor"));
   EXPECT_TRUE(copper.r > 0.9f && copper.g > 0.5f && copper.g < 0.7f && copper.b < copper.g);
   FakeProperties none;
   none.texts["material"] = "none";
-  EXPECT_EQ(reflectance(make("conductor", none)), Rgb(1));
-  EXPECT_TRUE(make("conductor").has_other_lobes(LobeSelection()));
-  EXPECT_EQ(make("conductor").max_connectable_albedo(LobeSelection()), 0);
+  EXPECT_EQ(reflectance(make_plugin("conductor", none)), Rgb(1));
+  FakeProperties silver;
+  silver.texts["material"] = "Ag";
+  EXPECT_GT(reflectance(make_plugin("conductor", silver)).g, 0.9f);
+  EXPECT_TRUE(make_plugin("conductor")->has_other_lobes(LobeSelection()));
+  EXPECT_EQ(make_plugin("conductor")->max_connectable_pi_f(LobeSelection()), 0);
+}
+
+TEST(ConductorMaterial, TakesItsIndexRelativeToTheOutside) {
+  FakeProperties properties;
+  properties.colours["eta"] = Rgb(2, 3, 4);
+  properties.colours["k"] = Rgb(1, 0.5f, 0);
+  properties.texts["ext_eta"] = "Water";
+  const Rgb weight = shade(*make_plugin("conductor", properties), k_up).bsdf.energy(k_up, LobeSelection()) * Rgb(1);
+  const float eta = 4 / 1.333f, red_eta = 2 / 1.333f, red_k = 1 / 1.333f;
+  EXPECT_NEAR(albedo(make_plugin("conductor", properties)).b, (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1)), 1e-6f);
+  EXPECT_NEAR(albedo(make_plugin("conductor", properties)).r,
+              ((red_eta - 1) * (red_eta - 1) + red_k * red_k) / ((red_eta + 1) * (red_eta + 1) + red_k * red_k), 1e-6f);
+  EXPECT_GT(weight.r, 0);
 }
 
 TEST(ConductorMaterial, RefusesPresetsThatItDoesNotKnow) {
   FakeProperties unknown;
   unknown.texts["material"] = "Unobtainium";
-  EXPECT_THROW(make("conductor", unknown), BadProperty);
+  EXPECT_THROW(make_plugin("conductor", unknown), BadProperty);
 }
 
-TEST(TwoSided, MirrorsItsOneBsdf) {
+TEST(TwoSided, TurnsItsBsdfTowardsTheViewer) {
   FakeProperties properties;
-  EXPECT_THROW(make("twosided", properties), BadProperty);
-  properties.nested.push_back(make("diffuse"));
-  const Material material = make("twosided", properties);
-  EXPECT_TRUE(material.two_sided);
-  const Vec3 below{0, 0, -1};
-  EXPECT_EQ(material.resolve({}).eval(below, below, LobeSelection()), Rgb(0.5f * k_inv_pi));
-  properties.nested.push_back(make("diffuse"));
-  EXPECT_THROW(make("twosided", properties), BadProperty);
+  EXPECT_THROW(make_plugin("twosided", properties), BadProperty);
+  properties.nested.push_back(make_plugin("diffuse"));
+  const MaterialPtr material = make_plugin("twosided", properties);
+  EXPECT_TRUE(material->turns_frame());
+  const Shading below = shade(*material, k_down);
+  EXPECT_EQ(below.frame.to_local(k_down), k_up);
+  EXPECT_EQ(below.bsdf.eval(k_up, k_up, LobeSelection()), Rgb(0.5f * k_inv_pi));
+  properties.nested.push_back(make_mirror(Texture(Rgb(0.25f))));
+  const MaterialPtr different = make_plugin("twosided", properties);
+  EXPECT_EQ(albedo(different, k_up), Rgb(0.5f));
+  EXPECT_EQ(albedo(different, k_down), Rgb(0.25f));
+  properties.nested.push_back(make_plugin("diffuse"));
+  EXPECT_THROW(make_plugin("twosided", properties), BadProperty);
+}
+
+TEST(TwoSided, RefusesWhatTransmits) {
+  for (const char* name : {"dielectric", "thindielectric", "roughdielectric", "null"}) {
+    FakeProperties properties;
+    properties.nested = {make_plugin(name)};
+    EXPECT_THROW(make_plugin("twosided", properties), BadProperty) << name;
+    properties.nested = {make_plugin("diffuse"), make_plugin(name)};
+    EXPECT_THROW(make_plugin("twosided", properties), BadProperty) << name;
+  }
 }
 
 }  // namespace

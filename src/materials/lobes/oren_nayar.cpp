@@ -1,0 +1,70 @@
+#include "materials/lobes/oren_nayar.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gradslc {
+namespace {
+
+float sine(Vec3 w) { return std::sqrt(w.x * w.x + w.y * w.y); }
+
+/// numerator / denominator, at most k_max_tangent; both >= 0.
+float bounded_tangent(float numerator, float denominator) {
+  return numerator >= OrenNayar::k_max_tangent * denominator ? OrenNayar::k_max_tangent : numerator / denominator;
+}
+
+constexpr float cubed(float x) { return x * x * x; }
+
+}  // namespace
+
+OrenNayar::OrenNayar(Rgb albedo, float alpha, bool fast_approximation) : albedo_(albedo) {
+  const float sigma2 = 0.5f * alpha * alpha;
+  c1_ = 1 - 0.5f * sigma2 / (sigma2 + 0.33f);
+  c2_ = 0.45f * sigma2 / (sigma2 + 0.09f);
+  c3_ = fast_approximation ? 0 : 0.125f * sigma2 / (sigma2 + 0.09f);
+  c4_ = fast_approximation ? 0 : 0.17f * sigma2 / (sigma2 + 0.13f);
+}
+
+Rgb OrenNayar::eval(Vec3 wo, Vec3 wi) const {
+  if (wo.z <= 0 || wi.z <= 0) return Rgb();
+  const float sin_o = sine(wo), sin_i = sine(wi);
+  const float cos_phi =
+      sin_o > 0 && sin_i > 0 ? std::clamp((wo.x * wi.x + wo.y * wi.y) / (sin_o * sin_i), -1.0f, 1.0f) : 0;
+  const bool i_steeper = wi.z > wo.z;  // alpha is the angle that is larger, beta the smaller one
+  const float sin_alpha = i_steeper ? sin_o : sin_i, sin_beta = i_steeper ? sin_i : sin_o;
+  const float tan_beta = bounded_tangent(sin_beta, i_steeper ? wi.z : wo.z);
+  if (c3_ == 0) return albedo_ * (k_inv_pi * (c1_ + c2_ * std::max(cos_phi, 0.0f) * sin_alpha * tan_beta));
+  const float alpha = std::atan2(sin_alpha, i_steeper ? wo.z : wi.z),
+              beta = std::atan2(sin_beta, i_steeper ? wi.z : wo.z);
+  const float c2 = c2_ * (cos_phi >= 0 ? sin_alpha : sin_alpha - cubed(2 * beta * k_inv_pi));
+  const float angles = 4 * alpha * beta * k_inv_pi * k_inv_pi;
+  const float tan_half = bounded_tangent(sin_alpha + sin_beta, wo.z + wi.z);
+  const float single = c1_ + cos_phi * c2 * tan_beta + (1 - std::abs(cos_phi)) * c3_ * angles * angles * tan_half;
+  const float twice = c4_ * (1 - cos_phi * (2 * beta * k_inv_pi) * (2 * beta * k_inv_pi));
+  return k_inv_pi * (albedo_ * single + albedo_ * albedo_ * twice);
+}
+
+std::optional<BsdfSample> OrenNayar::sample(Vec3 known, float /*u_choice*/, Vec2 u, Transport) const {
+  if (known.z <= 0) return std::nullopt;
+  const Vec3 w = square_to_cosine_hemisphere(u);
+  if (w.z <= 0) return std::nullopt;
+  return BsdfSample{w, k_pi * eval(known, w), cosine_hemisphere_pdf_solid_angle(w.z), false};
+}
+
+// beta is at most known's angle t, and so tan(beta) cos(w) <= sin(t); tan((alpha + beta)/2) cos(w), the sum of both
+// sines over that of both cosines times one of them, is at most 1 + sin(t).
+ReflectionBound OrenNayar::reflection_bound(Vec3 known) const {
+  if (known.z <= 0) return {};
+  const float rho = max_channel(albedo_), sin_known = sine(known);
+  return {.cosine = rho * c1_ + 2 * rho * rho * c4_,
+          .constant = rho * std::max(c2_ * sin_known, c3_ * (1 + sin_known))};
+}
+
+float OrenNayar::max_pi_f(Vec3 known) const {
+  if (known.z <= 0) return 0;
+  const float rho = max_channel(albedo_), sin_known = sine(known);
+  const float tan_beta = bounded_tangent(sin_known, known.z), tan_half = bounded_tangent(1 + sin_known, known.z);
+  return rho * (c1_ + std::max(c2_ * tan_beta, c3_ * tan_half)) + 2 * rho * rho * c4_;
+}
+
+}  // namespace gradslc

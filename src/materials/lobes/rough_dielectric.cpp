@@ -1,0 +1,89 @@
+#include "materials/lobes/rough_dielectric.h"
+
+namespace gradslc {
+
+RoughDielectric::Facet RoughDielectric::facet_between(Vec3 known, Vec3 w) const {
+  const bool reflected = known.z * w.z > 0;
+  const float eta_known = known.z > 0 ? 1 : eta, eta_w = w.z > 0 ? 1 : eta;
+  const Vec3 sum = reflected ? known + w : eta_known * known + eta_w * w;
+  const float squared = length_squared(sum);
+  Facet facet{};
+  if (!(squared > 0)) return facet;
+  facet.h = sum / std::sqrt(squared);
+  if (facet.h.z < 0) facet.h = -facet.h;
+  facet.cos_known = dot(known, facet.h);
+  facet.cos_w = dot(w, facet.h);
+  if (facet.cos_known * known.z <= 0 || facet.cos_w * w.z <= 0) return facet;
+  facet.density = microfacet.d(facet.h);
+  const float cos_outside = known.z > 0 ? facet.cos_known : reflected ? -std::abs(facet.cos_known) : facet.cos_w;
+  facet.reflectance = fresnel_dielectric(std::clamp(cos_outside, -1.0f, 1.0f), eta).reflectance;
+  facet.jacobian = reflected ? 1 / (4 * std::abs(facet.cos_w)) : eta_w * eta_w * std::abs(facet.cos_w) / squared;
+  return facet;
+}
+
+float RoughDielectric::reflection_probability(float fresnel) const {
+  const float reflected = fresnel * max_channel(reflectance), refracted = (1 - fresnel) * max_channel(transmittance);
+  return reflected + refracted > 0 ? reflected / (reflected + refracted) : 0;
+}
+
+Rgb RoughDielectric::eval(Vec3 wo, Vec3 wi) const {
+  if (wo.z == 0 || wi.z == 0) return Rgb();
+  const Facet facet = facet_between(wi, wo);  // its jacobian is dh/dwo
+  if (facet.density == 0) return Rgb();
+  const Rgb colour = wo.z * wi.z > 0 ? reflectance * facet.reflectance : transmittance * (1 - facet.reflectance);
+  return colour * (facet.density * microfacet.g1_over_cos(wi) * microfacet.g1_over_cos(wo) * std::abs(facet.cos_known) *
+                   facet.jacobian);
+}
+
+float RoughDielectric::pdf_solid_angle(Vec3 known, Vec3 w) const {
+  if (known.z == 0 || w.z == 0) return 0;
+  const Facet facet = facet_between(known, w);
+  if (facet.density == 0) return 0;
+  const float p = reflection_probability(facet.reflectance);
+  return (known.z * w.z > 0 ? p : 1 - p) * facet.density * microfacet.g1_over_cos(known) * std::abs(facet.cos_known) *
+         facet.jacobian;
+}
+
+std::optional<BsdfSample> RoughDielectric::sample(Vec3 known, float u_choice, Vec2 u, Transport transport) const {
+  if (known.z == 0) return std::nullopt;
+  const Vec3 m = microfacet.sample_visible(known.z > 0 ? known : -known, u);
+  const float cos_m = dot(known, m);
+  if (cos_m * known.z <= 0) return std::nullopt;
+  const DielectricFresnel fresnel = fresnel_dielectric(std::clamp(cos_m, -1.0f, 1.0f), eta);
+  const float p = reflection_probability(fresnel.reflectance);
+  const bool reflected = u_choice < p;
+  const float bend = known.z > 0 ? 1 / eta : eta;  // index on known's side over index on the other
+  const Vec3 w = reflected ? 2 * cos_m * m - known : (bend * cos_m + fresnel.cos_transmitted) * m - bend * known;
+  if (reflected != (known.z * w.z > 0)) return std::nullopt;
+  const float pdf = pdf_solid_angle(known, w);
+  if (!(pdf > 0)) return std::nullopt;
+  const float scale = !reflected && transport == Transport::radiance ? bend * bend : 1;
+  const Rgb colour =
+      reflected ? reflectance * (fresnel.reflectance / p) : transmittance * ((1 - fresnel.reflectance) / (1 - p));
+  return BsdfSample{w, colour * (microfacet.g1(w) * scale), pdf, false};
+}
+
+Rgb RoughDielectric::energy(Vec3 known) const {
+  if (known.z == 0) return Rgb();
+  // Where the surface reflects all, some facets let light pass.
+  const float f = std::min(fresnel_dielectric(std::clamp(known.z, -1.0f, 1.0f), eta).reflectance, 0.99f);
+  return reflectance * f + transmittance * (1 - f);
+}
+
+float RoughDielectric::max_refraction(float eta) {
+  const float dense = std::max(eta, 1.0f), difference = eta - 1;
+  return k_pi * dense * dense / (difference * difference);
+}
+
+ReflectionBound RoughDielectric::reflection_bound(Vec3 known) const {
+  if (known.z == 0) return {};
+  const float scattered =
+      std::max(max_channel(reflectance) * k_pi / 4, max_channel(transmittance) * max_refraction(eta));
+  return {.cosine = 0, .constant = scattered * microfacet.max_d(0) * microfacet.g1_over_cos(known) * 1.0005f};
+}
+
+float RoughDielectric::max_pi_f(Vec3 known) const {
+  return reflection_bound(known).constant * microfacet.max_g1_over_cos(0, 1);
+}
+
+}  // namespace gradslc

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "materials/lobes.h"
+#include "materials/lobes/fresnel_terms.h"
+#include "materials/microfacet.h"
+
+namespace gradslc {
+
+/// Rough interface between dielectrics: facets that reflect and refract (Walter et al. 2007), masking and shadowing
+/// independent of each other as in Mitsuba; light that hits a second facet is lost. f(wo, wi) of the refraction scales
+/// radiance by eta^2 of wo's side over that of wi's: f(wo, wi) / eta_o^2 is symmetric.
+struct RoughDielectric {
+  Microfacet microfacet;
+  float eta;  ///< index inside over index outside, > 0, not 1
+  Rgb reflectance{1}, transmittance{1};
+
+  static constexpr bool k_delta = false;
+  static constexpr bool k_transmits = true;
+  float roughness() const { return microfacet.roughness(); }
+
+  Rgb eval(Vec3 wo, Vec3 wi) const;
+  std::optional<BsdfSample> sample(Vec3 known, float u_choice, Vec2 u, Transport transport) const;
+  float pdf_solid_angle(Vec3 known, Vec3 w) const;
+  Rgb energy(Vec3 known) const;
+  ReflectionBound reflection_bound(Vec3 known) const;
+  float max_pi_f(Vec3 known) const;
+  Rgb feature_albedo() const { return energy({0, 0, 1}); }
+
+  /// Factor by which refraction at most exceeds D G1 G1 / (cos cos), times pi: eta_o^2 |wi.h| |wo.h| over the square of
+  /// (eta_i wi.h + eta_o wo.h) is largest where the normal is hit straight.
+  static float max_refraction(float eta);
+
+ private:
+  struct Facet {
+    Vec3 h;                  // on the outside
+    float density;           // d(h), 0 where one of the directions sees its back
+    float cos_known, cos_w;  // with h
+    float reflectance;       // Fresnel's
+    float jacobian;          // dh/dw
+  };
+  Facet facet_between(Vec3 known, Vec3 w) const;
+  float reflection_probability(float fresnel) const;
+};
+
+}  // namespace gradslc

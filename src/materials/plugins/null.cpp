@@ -1,0 +1,19 @@
+#include "materials/plugins.h"
+
+namespace gradslc {
+namespace {
+
+/// A surface that is not there.
+class NullMaterial final : public Material {
+ public:
+  void shade(const MaterialPoint&, Vec3, Shading& shading) const override { shading.bsdf.add(StraightTransmission{}); }
+  bool has_other_lobes(const LobeSelection&) const override { return true; }
+  float max_connectable_pi_f(const LobeSelection&) const override { return 0; }
+  bool transmits() const override { return true; }
+};
+
+}  // namespace
+
+MaterialPtr make_null(PropertyReader&) { return std::make_shared<NullMaterial>(); }
+
+}  // namespace gradslc

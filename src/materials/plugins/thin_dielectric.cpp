@@ -1,0 +1,41 @@
+#include "materials/plugins.h"
+#include "materials/plugins/properties.h"
+
+namespace gradslc {
+namespace {
+
+/// A pane so thin that light is not displaced: it reflects, or lets pass straight through.
+class ThinDielectricMaterial final : public Material {
+ public:
+  ThinDielectricMaterial(float eta, Texture reflectance, Texture transmittance)
+      : eta_(eta), reflectance_(std::move(reflectance)), transmittance_(std::move(transmittance)) {}
+
+  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+    shading.bsdf.add(ThinPaneReflection{{eta_}, reflectance_.eval(point.uv)});
+    shading.bsdf.add(StraightTransmission{transmittance_.eval(point.uv), eta_});
+  }
+  bool has_other_lobes(const LobeSelection&) const override { return true; }
+  float max_connectable_pi_f(const LobeSelection&) const override { return 0; }
+  int max_lobes() const override { return 2; }
+  bool transmits() const override { return true; }
+  std::vector<Texture> textures() const override { return {reflectance_, transmittance_}; }
+
+ private:
+  float eta_;
+  Texture reflectance_, transmittance_;
+};
+
+}  // namespace
+
+MaterialPtr make_thin_dielectric(PropertyReader& properties) {
+  const float eta = read_relative_index(properties, "bk7");
+  const Texture reflectance = properties.texture("specular_reflectance", Rgb(1.0f));
+  return std::make_shared<ThinDielectricMaterial>(eta, reflectance,
+                                                  properties.texture("specular_transmittance", Rgb(1.0f)));
+}
+
+MaterialPtr make_thin_dielectric(float eta) {
+  return std::make_shared<ThinDielectricMaterial>(eta, Texture(Rgb(1.0f)), Texture(Rgb(1.0f)));
+}
+
+}  // namespace gradslc

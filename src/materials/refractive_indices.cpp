@@ -1,0 +1,112 @@
+#include "materials/refractive_indices.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+namespace gradslc {
+namespace {
+
+struct NamedDielectric {
+  const char* name;
+  float index;
+};
+
+/// As Mitsuba lists them: mostly Hecht, "Optics", 4th edition, at 589 nm and 0 to 20 degrees Celsius.
+constexpr NamedDielectric k_dielectrics[] = {
+    {"vacuum", 1.0f},      {"helium", 1.000036f},        {"hydrogen", 1.000132f},
+    {"air", 1.000277f},    {"carbon dioxide", 1.00045f}, {"water", 1.333f},
+    {"acetone", 1.36f},    {"ethanol", 1.361f},          {"carbon tetrachloride", 1.461f},
+    {"glycerol", 1.4729f}, {"benzene", 1.501f},          {"silicone oil", 1.52045f},
+    {"bromine", 1.661f},   {"water ice", 1.31f},         {"fused quartz", 1.458f},
+    {"pyrex", 1.47f},      {"acrylic glass", 1.49f},     {"polypropylene", 1.49f},
+    {"bk7", 1.5046f},      {"sodium chloride", 1.544f},  {"amber", 1.55f},
+    {"pet", 1.575f},       {"diamond", 2.419f},
+};
+
+struct NamedConductor {
+  const char* name;
+  ConductorIndex index;
+};
+
+/// The materials that Mitsuba documents. Its measured spectra (Palik's handbook, the SOPRA and other collections)
+/// reduced to linear sRGB, as published in the Tungsten renderer's table of complex indices, rounded to four digits;
+/// what came out below zero, where a spectrum lies outside of sRGB, is 0. AlSb is left out: its red eta is.
+constexpr NamedConductor k_conductors[] = {
+    {"none", {Rgb(0.0f), Rgb(1.0f)}},
+    {"a-C", {{2.9441f, 2.2272f, 1.9682f}, {0.8874f, 0.7993f, 0.8153f}}},
+    {"Ag", {{0.1553f, 0.1167f, 0.1384f}, {4.8283f, 3.1222f, 2.1470f}}},
+    {"Al", {{1.6575f, 0.8804f, 0.5212f}, {9.2239f, 6.2695f, 4.8370f}}},
+    {"AlAs", {{3.6051f, 3.2329f, 2.2176f}, {0.0007f, 0, 0.0074f}}},
+    {"Au", {{0.1431f, 0.3750f, 1.4425f}, {3.9832f, 2.3857f, 1.6032f}}},
+    {"Be", {{4.1851f, 3.1851f, 2.7841f}, {3.8354f, 3.0101f, 2.8690f}}},
+    {"Cr", {{4.3697f, 2.9167f, 1.6547f}, {5.2064f, 4.2314f, 3.7549f}}},
+    {"CsI", {{2.1449f, 1.7023f, 1.6624f}, {0, 0, 0}}},
+    {"Cu", {{0.2004f, 0.9240f, 1.1022f}, {3.9129f, 2.4528f, 2.1422f}}},
+    {"Cu_palik", {{0.2127f, 0.9200f, 1.1024f}, {3.9216f, 2.4571f, 2.1367f}}},
+    {"Cu2O", {{3.5493f, 2.9521f, 2.7369f}, {0.1132f, 0.1947f, 0.6002f}}},
+    {"CuO", {{3.2454f, 2.4496f, 2.1974f}, {0.5203f, 0.5707f, 0.7172f}}},
+    {"d-C", {{2.7113f, 2.3186f, 2.2289f}, {0, 0, 0}}},
+    {"Hg", {{2.3989f, 1.4400f, 0.9096f}, {6.3276f, 4.3719f, 3.4218f}}},
+    {"HgTe", {{4.7795f, 3.2310f, 2.6600f}, {1.6320f, 1.5808f, 1.7296f}}},
+    {"Ir", {{3.0864f, 2.0822f, 1.6179f}, {5.5922f, 4.0672f, 3.2673f}}},
+    {"K", {{0.0640f, 0.0464f, 0.0382f}, {2.1042f, 1.3489f, 0.9132f}}},
+    {"Li", {{0.2658f, 0.1956f, 0.2209f}, {3.5402f, 2.3111f, 1.6686f}}},
+    {"MgO", {{2.0896f, 1.6507f, 1.5949f}, {0, 0, 0}}},
+    {"Mo", {{4.4837f, 3.5255f, 2.7761f}, {4.1111f, 3.4209f, 3.1506f}}},
+    {"Na_palik", {{0.0603f, 0.0561f, 0.0620f}, {3.1793f, 2.1125f, 1.5791f}}},
+    {"Nb", {{3.4201f, 2.7902f, 2.3956f}, {3.4414f, 2.7376f, 2.5799f}}},
+    {"Ni_palik", {{2.3673f, 1.6634f, 1.4671f}, {4.4988f, 3.0502f, 2.3454f}}},
+    {"Rh", {{2.5858f, 1.8602f, 1.5544f}, {6.7823f, 4.7030f, 3.9761f}}},
+    {"Se", {{4.0593f, 2.8427f, 2.8208f}, {0.7544f, 0.6385f, 0.5216f}}},
+    {"Se-e", {{5.7242f, 4.1654f, 4.0816f}, {0.8714f, 1.1053f, 1.5648f}}},
+    {"SiC", {{3.1723f, 2.5260f, 2.4794f}, {0, 0, 0}}},
+    {"SnTe", {{4.5252f, 1.9812f, 1.2817f}, {0, 0, 0}}},
+    {"Ta", {{2.0626f, 2.3931f, 2.6281f}, {2.4080f, 1.7414f, 1.9470f}}},
+    {"Te", {{7.3908f, 4.4821f, 2.6371f}, {3.2561f, 3.5274f, 3.2922f}}},
+    {"Te-e", {{7.5090f, 4.2965f, 2.3699f}, {5.5842f, 4.9476f, 3.9975f}}},
+    {"ThF4", {{1.8307f, 1.4422f, 1.3876f}, {0, 0, 0}}},
+    {"TiC", {{3.7005f, 2.8374f, 2.5823f}, {3.2657f, 2.3516f, 2.1728f}}},
+    {"TiN", {{1.6485f, 1.1504f, 1.3798f}, {3.3685f, 1.9435f, 1.1020f}}},
+    {"TiO2", {{3.4566f, 2.8017f, 2.9051f}, {0.0001f, 0, 0.0006f}}},
+    {"TiO2-e", {{3.1066f, 2.5132f, 2.5824f}, {0, 0, 0.0002f}}},
+    {"VC", {{3.6576f, 2.7527f, 2.5327f}, {3.0684f, 2.1987f, 1.9632f}}},
+    {"VN", {{2.8656f, 2.1192f, 1.9401f}, {3.0323f, 2.0561f, 1.6163f}}},
+    {"V_palik", {{4.2775f, 3.5132f, 2.7611f}, {3.4912f, 2.8894f, 3.1117f}}},
+    {"W", {{4.3707f, 3.3003f, 2.9983f}, {3.5007f, 2.6049f, 2.2732f}}},
+};
+
+template <class Table>
+std::vector<std::string> names(const Table& table) {
+  std::vector<std::string> result;
+  for (const auto& entry : table) result.emplace_back(entry.name);
+  return result;
+}
+
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+}  // namespace
+
+std::optional<float> dielectric_index(std::string_view name) {
+  for (const NamedDielectric& entry : k_dielectrics)
+    if (same_letters(entry.name, name)) return entry.index;
+  return std::nullopt;
+}
+
+std::vector<std::string> dielectric_names() { return names(k_dielectrics); }
+
+std::optional<ConductorIndex> conductor_index(std::string_view name) {
+  for (const NamedConductor& entry : k_conductors)
+    if (entry.name == name) return entry.index;
+  // Many spectra exist twice, with their source in the name and without.
+  constexpr std::string_view source = "_palik";
+  if (name.ends_with(source)) return conductor_index(name.substr(0, name.size() - source.size()));
+  return std::nullopt;
+}
+
+std::vector<std::string> conductor_names() { return names(k_conductors); }
+
+}  // namespace gradslc
