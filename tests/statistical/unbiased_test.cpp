@@ -69,6 +69,22 @@ TEST(Unbiased, MirrorBoxIndirectLight) {
                   {.max_depth = 6, .components = {.emission = false, .direct = false}}, lightcut_methods());
 }
 
+/// Gloss costs samples: fewer methods, more of each.
+void expect_unbiased_on_gloss(GlossyLight light) {
+  const std::vector<Method> methods = {
+      {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
+      {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+      {"slc, small bound", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"cut_size", 4.0}}},
+      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"stencil", "symmetric"}}},
+      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
+  };
+  expect_unbiased(glossy_box(k_resolution, light), {.max_depth = 5}, methods);
+}
+
+TEST(Unbiased, GlossyBoxUnderALamp) { expect_unbiased_on_gloss(GlossyLight::lamp); }
+TEST(Unbiased, GlossyBoxUnderTheSky) { expect_unbiased_on_gloss(GlossyLight::sky); }
+TEST(Unbiased, GlossyBoxWithPointLights) { expect_unbiased_on_gloss(GlossyLight::points); }
+
 TEST(Unbiased, RealCornellBox) {
   const std::filesystem::path file = std::filesystem::path(GRADSLC_SHARED_DIR) / "scenes/cornell-box/scene_v0.6.xml";
   if (!std::filesystem::exists(file))

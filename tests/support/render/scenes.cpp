@@ -1,8 +1,11 @@
 #include "support/render/scenes.h"
 
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "materials/plugins.h"
+#include "scene/loaders/loader.h"
 
 namespace gradslc {
 namespace {
@@ -12,6 +15,90 @@ void append_quad(TriangleMesh& mesh, Point3 corner, Vec3 u, Vec3 v) {
   for (const Point3 p : {corner, corner + u, corner + u + v, corner + v}) mesh.positions.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+constexpr const char* k_glossy_box = R"(
+  <sensor type="perspective">
+    <float name="fov" value="42"/>
+    <transform name="to_world"><lookat origin="0, 0, -3.6" target="0, 0, 0" up="0, 1, 0"/></transform>
+  </sensor>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="-90"/><translate y="-1"/></transform>
+    <bsdf type="roughplastic">
+      <string name="distribution" value="ggx"/> <float name="alpha" value="0.25"/>
+      <boolean name="nonlinear" value="true"/> <rgb name="diffuse_reflectance" value="0.5, 0.4, 0.3"/>
+    </bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="180"/><translate z="1"/></transform>
+    <bsdf type="roughconductor">
+      <float name="alpha" value="0.2"/>
+      <rgb name="eta" value="0.2, 0.9, 1.1"/> <rgb name="k" value="3.9, 2.5, 2.1"/>
+    </bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="90"/><translate x="-1"/></transform>
+    <bsdf type="twosided">
+      <bsdf type="roughplastic">
+        <string name="distribution" value="ggx"/> <float name="alpha" value="0.05"/>
+        <rgb name="diffuse_reflectance" value="0.7, 0.1, 0.1"/>
+      </bsdf>
+    </bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="-90"/><translate x="1"/></transform>
+    <bsdf type="plastic"><rgb name="diffuse_reflectance" value="0.1, 0.6, 0.1"/></bsdf>
+  </shape>
+  <shape type="cube">
+    <transform name="to_world">
+      <scale value="0.3"/><rotate y="1" angle="30"/><translate x="-0.45" y="-0.69" z="0.2"/>
+    </transform>
+    <bsdf type="roughdielectric"><float name="alpha" value="0.3"/></bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="0.35"/><rotate y="1" angle="200"/><translate x="0.55" y="-0.4" z="-0.3"/></transform>
+    <bsdf type="thindielectric"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="0.3"/><rotate y="1" angle="150"/><translate x="0.5" y="0.4" z="0"/></transform>
+    <bsdf type="mask">
+      <float name="opacity" value="0.6"/>
+      <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.2, 0.3, 0.8"/></bsdf></bsdf>
+    </bsdf>
+  </shape>)";
+
+constexpr const char* k_ceiling = R"(
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="90"/><translate y="1"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.7"/></bsdf>
+  </shape>)";
+
+std::string lights_of(GlossyLight light) {
+  switch (light) {
+    case GlossyLight::lamp:
+      return std::string(k_ceiling) + R"(
+        <shape type="rectangle">
+          <transform name="to_world"><scale value="0.3"/><rotate x="1" angle="90"/><translate y="0.98"/></transform>
+          <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+          <emitter type="area"><rgb name="radiance" value="10, 8, 5"/></emitter>
+        </shape>)";
+    case GlossyLight::sky:
+      return R"(
+        <emitter type="constant"><rgb name="radiance" value="0.5, 0.7, 1"/></emitter>
+        <emitter type="directional">
+          <vector name="direction" x="0.3" y="-1" z="0.2"/> <rgb name="irradiance" value="2, 1.8, 1.5"/>
+        </emitter>)";
+    case GlossyLight::points:
+      return std::string(k_ceiling) + R"(
+        <emitter type="point">
+          <point name="position" x="-0.3" y="0.7" z="-0.5"/> <rgb name="intensity" value="0.8, 0.7, 0.6"/>
+        </emitter>
+        <emitter type="spot">
+          <transform name="to_world"><lookat origin="0.3, 0.8, -0.6" target="0, -1, 0.3" up="0, 0, 1"/></transform>
+          <rgb name="intensity" value="2, 2, 3"/> <float name="cutoff_angle" value="35"/>
+        </emitter>)";
+  }
+  return {};
 }
 
 Point3 scaled(Point3 p, float scale) { return {p.x * scale, p.y * scale, p.z * scale}; }
@@ -91,6 +178,20 @@ Scene test_box(Resolution resolution, const TestBox& options) {
   d.meshes.push_back(quad(scaled({-0.3f, 0.98f, -0.3f}, s), s * Vec3{0.6f, 0, 0}, s * Vec3{0, 0, 0.6f}, black));
   d.meshes.back().area_light = 0;
   d.camera = camera_at(resolution, scaled({0, 0, -3.6f}, s), scaled({0, 0, 0}, s), 42);
+  return Scene(std::move(d));
+}
+
+Scene glossy_box(Resolution resolution, GlossyLight light) {
+  const std::string text = "<scene version=\"3.0.0\">" + std::string(k_glossy_box) + lights_of(light) + "</scene>";
+  SceneDescription d =
+      load_scene_text(text, "glossy_box.xml", {.width = resolution.width, .height = resolution.height});
+  TriangleMesh board = quad({-0.2f, 0.1f, 0.5f}, {0.6f, 0, 0.1f}, {0, 0.6f, 0.2f}, 0);
+  board.material = static_cast<std::uint32_t>(d.materials.size());
+  d.materials.push_back(diffuse_material(Rgb(0.8f)));
+  if (!d.material_names.empty()) d.material_names.push_back({"board", "twosided diffuse"});
+  for (const Vec3 n : {Vec3{-0.9f, 0, -1}, Vec3{0.9f, 0.4f, -1}, Vec3{0.5f, 0.9f, -1}, Vec3{-0.5f, 0.5f, -1}})
+    board.normals.push_back(as_normal(normalize(n)));
+  d.meshes.push_back(board);
   return Scene(std::move(d));
 }
 

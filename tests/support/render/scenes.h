@@ -32,4 +32,13 @@ struct TestBox {
 };
 Scene test_box(Resolution resolution, const TestBox& options = {});
 
+/// A box of the same size with every kind of lobe: rough and smooth plastic, rough and smooth metal, rough glass, a
+/// pane, a mask, and a board whose shading normals are far off its geometric one.
+enum class GlossyLight : std::uint8_t {
+  lamp,   ///< an area light under the ceiling
+  sky,    ///< an environment above the open box, and parallel light
+  points  ///< a point and a spot light
+};
+Scene glossy_box(Resolution resolution, GlossyLight light = GlossyLight::lamp);
+
 }  // namespace gradslc

@@ -12,43 +12,82 @@
 #include "lighttree/bounds.h"
 #include "lighttree/cut.h"
 #include "lighttree/descent.h"
+#include "materials/plugins.h"
 #include "support/random.h"
 #include "support/statistics.h"
 
 namespace gradslc {
 namespace {
 
-Vpl random_vpl(TestRandom& random, float spread) {
-  Vpl vpl;
-  vpl.position = Point3{} + spread * random.get1() * random.direction();
-  vpl.max_pi_f = 0.01f + 0.99f * random.get1();
-  vpl.flux = vpl.max_pi_f * Rgb(random.get1(), random.get1(), random.get1());
-  const Vec3 normal = random.direction();
-  vpl.geometric_normal = vpl.shading_normal = OctahedralNormal(normal);
-  vpl.vertex = 1;
-  return vpl;
+const std::vector<MaterialPtr>& materials() {
+  static const std::vector<MaterialPtr> k_materials = {
+      make_diffuse(Texture(Rgb(0.8f, 0.5f, 0.2f))),
+      make_rough_mirror(MicrofacetType::ggx, 0.3f, Texture(Rgb(0.9f, 0.6f, 0.3f))),
+      make_rough_plastic(MicrofacetType::beckmann, 0.15f, 1.5f, Texture(Rgb(0.2f, 0.4f, 0.6f)), true),
+      make_rough_dielectric(MicrofacetType::ggx, 0.4f, 1.5f)};
+  return k_materials;
 }
 
-std::vector<Vpl> random_vpls(TestRandom& random, std::size_t count, float spread = 1) {
-  std::vector<Vpl> vpls;
-  for (std::size_t i = 0; i < count; ++i) vpls.push_back(random_vpl(random, spread));
-  return vpls;
-}
-
-ShadedPoint random_gather_point(TestRandom& random, float spread) {
+/// What a random material is at a random point: smooth normals may differ from the geometric one by some 50 degrees.
+ShadedPoint random_point(TestRandom& random, Point3 position, std::uint32_t material) {
   ShadedPoint x;
-  x.point.position = Point3{} + spread * random.get1() * random.direction();
-  x.frame = frame_from_normal(as_normal(random.direction()));
-  x.point.geometric_normal = x.point.shading_normal = x.frame.n;
-  x.bsdf.add(Lambert{Rgb(random.get1(), random.get1(), random.get1())});
-  do x.wo = random.direction();
-  while (x.wo.z < 1e-3f);
+  x.point.position = position;
+  x.point.material = material;
+  x.point.geometric_normal = as_normal(random.direction());
+  x.point.shading_normal = as_normal(
+      normalize(as_vec(x.point.geometric_normal) + (random.below(2) == 0 ? 0.0f : 0.8f) * random.direction()));
+  Shading shading{frame_from_normal(x.point.shading_normal), {}};
+  Vec3 known;
+  do known = random.direction();
+  while (std::abs(dot(known, x.point.shading_normal)) < 1e-3f);
+  if (material < 3 && dot(known, x.point.shading_normal) < 0) known = -known;  // reflects only
+  materials()[material]->shade({}, known, shading);
+  x.frame = shading.frame, x.bsdf = shading.bsdf;
+  x.wo = x.to_local(known);
   return x;
 }
 
-/// Of a Lambertian VPL.
+Point3 random_position(TestRandom& random, float spread) {
+  return Point3{} + spread * random.get1() * random.direction();
+}
+
+/// Lambertian VPLs; with `glossy`, of all materials.
+VplSet random_vpls(TestRandom& random, std::size_t count, float spread = 1, bool glossy = false) {
+  VplSet set;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto material = static_cast<std::uint32_t>(glossy ? random.below(materials().size()) : 0);
+    const ShadedPoint y = random_point(random, random_position(random, spread), material);
+    Vpl vpl;
+    vpl.position = y.point.position;
+    vpl.flux = Rgb(random.get1(), random.get1(), random.get1());
+    vpl.geometric_normal = OctahedralNormal(as_vec(face_forward(y.point.geometric_normal, as_vec(y.frame.n))));
+    vpl.shading_normal = OctahedralNormal(as_vec(y.frame.n));
+    vpl.incoming = OctahedralNormal(y.to_world(y.wo));
+    vpl.vertex = 1;
+    if (material == 0) {
+      vpl.max_pi_f = 0.01f + 0.99f * random.get1();
+      vpl.flux *= vpl.max_pi_f;
+    } else {
+      vpl.max_pi_f = y.bsdf.max_connectable_pi_f(y.wo, LobeSelection());
+      vpl.surface = static_cast<std::uint32_t>(set.surfaces.size());
+      set.surfaces.push_back({.material = material,
+                              .uv = {},
+                              .tangent = OctahedralNormal(y.frame.s),
+                              .behind = y.wo.z < 0,
+                              .transmits = y.bsdf.transmits(LobeSelection().only_connectable())});
+    }
+    set.vpls.push_back(vpl);
+  }
+  return set;
+}
+
+ShadedPoint random_gather_point(TestRandom& random, float spread, bool glossy = false) {
+  const auto material = static_cast<std::uint32_t>(glossy ? random.below(materials().size()) : 0);
+  return random_point(random, random_position(random, spread), material);
+}
+
 Rgb unshadowed(const ShadedPoint& x, const LightTree& tree, std::size_t vpl, float bound) {
-  return unshadowed_contribution({x, LobeSelection()}, {{}, tree.set}, tree.set.vpls[vpl], bound);
+  return unshadowed_contribution({x, LobeSelection()}, {materials(), tree.set}, tree.set.vpls[vpl], bound);
 }
 
 /// Calls visit(node) for every node below `start`.
@@ -86,9 +125,9 @@ TEST(RadixSort, EqualsAStableSort) {
 
 class Builders : public testing::TestWithParam<const char*> {
  protected:
-  static LightTree build(std::vector<Vpl> vpls) {
+  static LightTree build(VplSet set) {
     for (const BuilderEntry& entry : builder_registry())
-      if (std::string(entry.name) == GetParam()) return entry.build({.vpls = std::move(vpls)});
+      if (std::string(entry.name) == GetParam()) return entry.build(std::move(set));
     return {};
   }
 };
@@ -102,8 +141,8 @@ INSTANTIATE_TEST_SUITE_P(All, Builders, testing::ValuesIn([] {
 TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
   TestRandom random(2);
   for (const std::size_t count : {1u, 2u, 3u, 5u, 64u, 65u, 1000u}) {
-    const std::vector<Vpl> vpls = random_vpls(random, count);
-    const LightTree tree = build(vpls);
+    const VplSet set = random_vpls(random, count);
+    const LightTree tree = build(set);
     ASSERT_EQ(tree.set.vpls.size(), count);
     std::vector<std::uint32_t> all = vpls_below(tree, 0);
     std::sort(all.begin(), all.end());
@@ -111,7 +150,7 @@ TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
     std::iota(expected.begin(), expected.end(), 0u);
     EXPECT_EQ(all, expected);
     double flux_in = 0, flux_out = 0;
-    for (const Vpl& vpl : vpls) flux_in += static_cast<double>(luminance(vpl.flux));
+    for (const Vpl& vpl : set.vpls) flux_in += static_cast<double>(luminance(vpl.flux));
     for (const Vpl& vpl : tree.set.vpls) flux_out += static_cast<double>(luminance(vpl.flux));
     EXPECT_NEAR(flux_in, flux_out, 1e-6 * flux_in);
     for_each_node(tree, 0, [&](NodeIndex node) {
@@ -127,9 +166,10 @@ TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
 TEST_P(Builders, DegenerateInputs) {
   EXPECT_TRUE(build({}).empty());
   TestRandom random(3);
-  std::vector<Vpl> same(17, random_vpl(random, 1));
+  VplSet same = random_vpls(random, 1);
+  same.vpls.assign(17, same.vpls[0]);
   EXPECT_EQ(vpls_below(build(same), 0).size(), 17u);
-  for (Vpl& vpl : same) vpl.flux = Rgb();
+  for (Vpl& vpl : same.vpls) vpl.flux = Rgb();
   const LightTree black = build(same);
   const ShadedPoint x = random_gather_point(random, 1);
   const Receiver r = make_receiver({x, LobeSelection()});
@@ -141,7 +181,7 @@ TEST_P(Builders, DegenerateInputs) {
 
 TEST_P(Builders, SameBitsForAnyNumberOfThreads) {
   TestRandom random(4);
-  const std::vector<Vpl> vpls = random_vpls(random, 30000);
+  const VplSet vpls = random_vpls(random, 30000);
   const int threads_before = thread_count();
   set_thread_count(1);
   const LightTree one = build(vpls);
@@ -159,9 +199,10 @@ TEST_P(Builders, BoundsHoldForRandomNodesAndReceivers) {
   std::size_t cases = 0;
   for (int round = 0; round < 300; ++round) {
     const float spread = std::exp(4 * random.get1() - 2);
-    const LightTree tree = build(random_vpls(random, 1 + random.below(100), spread));
+    const bool glossy = round % 2 == 0;
+    const LightTree tree = build(random_vpls(random, 1 + random.below(100), spread, glossy));
     for (int k = 0; k < 40; ++k) {
-      const ShadedPoint x = random_gather_point(random, 1);
+      const ShadedPoint x = random_gather_point(random, 1, glossy);
       const float bound = random.below(3) == 0 ? k_infinity : std::exp(8 * random.get1() - 4);
       std::vector<double> contribution(tree.set.vpls.size());
       for (std::size_t i = 0; i < tree.set.vpls.size(); ++i)
@@ -188,11 +229,12 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
   constexpr int k_draws = 40000;
   std::vector<double> p_values;
   for (int round = 0; round < 20; ++round) {
-    const LightTree tree = build(random_vpls(random, 1 + random.below(24)));
+    const bool glossy = round % 2 == 0;
+    const LightTree tree = build(random_vpls(random, 1 + random.below(24), 1, glossy));
     std::vector<ShadedPoint> points;
     std::vector<Receiver> receivers;
     for (std::size_t k = 0; k < 1 + random.below(4); ++k) {
-      points.push_back(random_gather_point(random, 1.5f));
+      points.push_back(random_gather_point(random, 1.5f, glossy));
       receivers.push_back(make_receiver({points.back(), LobeSelection()}));
     }
     const float bound = 0.5f;
@@ -261,13 +303,14 @@ TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
 
 TEST_P(Builders, ProbabilitiesDoNotDependOnTheUnitOfLength) {
   TestRandom random(8);
-  std::vector<Vpl> vpls = random_vpls(random, 50), scaled = vpls;
+  const VplSet vpls = random_vpls(random, 50, 1, true);
+  VplSet scaled = vpls;
   constexpr float k_scale = 1024;
-  for (Vpl& vpl : scaled) vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
+  for (Vpl& vpl : scaled.vpls) vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
   const LightTree tree = build(vpls), large = build(scaled);
   std::vector<Receiver> receivers;
   for (int k = 0; k < 3; ++k) {
-    const ShadedPoint x = random_gather_point(random, 1.2f);
+    const ShadedPoint x = random_gather_point(random, 1.2f, true);
     receivers.push_back(make_receiver({x, LobeSelection()}));
   }
   std::vector<Receiver> far = receivers;
