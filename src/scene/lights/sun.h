@@ -1,11 +1,13 @@
 #pragma once
 
+#include <numbers>
+
 #include "core/rgb.h"
 
 namespace gradslc {
 
 /// Half the angle under which the sun appears, radians (its diameter 0.5358 degrees, as Mitsuba 0.6 has it).
-constexpr double k_sun_radius = 0.5358 / 2 * 3.14159265358979323846 / 180;
+constexpr double k_sun_radius = 0.5358 / 2 * std::numbers::pi / 180;
 
 /// Mean radiance of the sun's disk through a clear atmosphere (Preetham, Shirley and Smits 1999, "A Practical Analytic
 /// Model for Daylight", appendix A.1): solar spectrum times the transmittances of Rayleigh scattering, aerosols, ozone

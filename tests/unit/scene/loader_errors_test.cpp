@@ -46,7 +46,9 @@ TEST(LoaderErrors, NameWhatIsNotKnown) {
        "test.xml:2:26: error: /scene/shape/sampler: shape \"rectangle\" has no use for a <sampler>"},
       {R"(<shape type="rectangle"><emitter type="point"/></shape>)",
        "test.xml:2:34: error: /scene/shape/emitter: unknown emitter \"point\" in a shape; known: area"},
-      {R"(<emitter type="sunsky"/>)", "test.xml:2:10: error: /scene/emitter: unknown emitter \"sunsky\"; known: area"},
+      {R"(<emitter type="skylight"/>)",
+       "test.xml:2:10: error: /scene/emitter: unknown emitter \"skylight\"; known: area, constant, envmap, point, "
+       "spot, directional, sun, sky, sunsky"},
       {R"(<emitter type="area"/>)", "test.xml:2:2: error: /scene/emitter: an area emitter must stand inside a <shape>"},
       {R"(<medium type="homogeneous"/>)", "test.xml:2:2: error: /scene/medium: unknown element <medium> in <scene>"},
       {R"(<shape type="rectangle"><colour name="x"/></shape>)",
@@ -209,7 +211,7 @@ TEST(LoaderErrors, RefuseDefinitionsOfNothing) {
 TEST(LoaderPermissive, TurnsWhatIsNotRecognisedIntoNotes) {
   LoadOptions options;
   options.permissive = true;
-  const SceneDescription scene = load(R"(<medium type="fog"/><shape type="teapot"/><emitter type="sky"/>
+  const SceneDescription scene = load(R"(<medium type="fog"/><shape type="teapot"/><emitter type="aurora"/>
     <shape type="rectangle"><float name="radius" value="1"/><bsdf type="velvet"/></shape>)",
                                       options);
   ASSERT_EQ(scene.meshes.size(), 1u);
