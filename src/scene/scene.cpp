@@ -191,7 +191,7 @@ bool Scene::occluded(const Ray& ray) const {
 }
 
 BoundingSphere Scene::bounding_sphere() const {
-  if (bounds_.empty()) return {Point3(), 0};
+  if (bounds_.empty()) return {Point3(), 1};  // any size: so environments have power
   return {bounds_.centre(), 0.5f * length(bounds_.diagonal())};
 }
 

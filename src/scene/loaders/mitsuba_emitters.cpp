@@ -14,6 +14,7 @@
 #include "scene/lights/point.h"
 #include "scene/lights/spot.h"
 #include "scene/loaders/images.h"
+#include "scene/loaders/mitsuba_sunsky.h"
 
 namespace gradslc {
 namespace {
@@ -100,6 +101,9 @@ constexpr LightEntry k_lights[] = {
     {"point", "a point with the same intensity in all directions", make_point},
     {"spot", "a point that shines into a cone", make_spot},
     {"directional", "parallel light", make_directional},
+    {"sun", "the sun's disk in a clear sky", make_sun},
+    {"sky", "a clear sky without the sun's disk", make_sky},
+    {"sunsky", "sun and clear sky", make_sunsky},
 };
 
 }  // namespace

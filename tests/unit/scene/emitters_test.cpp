@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/warp.h"
+#include "light_cases.h"
 #include "scene_fixtures.h"
 #include "support/statistics.h"
 
@@ -289,6 +290,87 @@ TEST(Emitters, ReferencesInThePlaneOfTheLampAreNotLit) {
     EXPECT_FALSE(scene.emitters().sample_direct({2, 0.5f, 0}, random.uniform(), random.get2()));
     EXPECT_FALSE(scene.emitters().sample_direct({0.5f, 0.5f, 0}, random.uniform(), random.get2()));
   }
+}
+
+/// A lamp, a sky and a point light over a floor.
+Scene lamp_sky_and_point() {
+  SceneDescription description = test::describe({test::parallelogram({-1, -1, -1}, {0, 0, 2}, {2, 0, 0})});
+  add_lamp(description, test::parallelogram({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}), Rgb(9, 6, 3));  // faces down
+  description.lights = {std::make_shared<const EnvironmentMap>(test::random_map(16, 8, 3), test::oblique()),
+                        std::make_shared<const PointLight>(Point3{0.3f, 0.5f, 0.2f}, Rgb(2, 3, 4)),
+                        std::make_shared<const ConstantLight>(Rgb())};  // no power
+  return Scene(std::move(description));
+}
+
+// Each emitter is chosen in proportion to its luminous power, and the density says so. False alarm 0.1 %.
+TEST(Emitters, OfAllKindsAreChosenByPower) {
+  const Scene scene = lamp_sky_and_point();
+  const Emitters& emitters = scene.emitters();
+  ASSERT_EQ(emitters.environments().size(), 1u);
+  const auto& [sky, sky_probability] = emitters.environments()[0];
+  const BoundingSphere ball = scene.bounding_sphere();
+  const double weights[] = {k_pi * luminance(Rgb(9, 6, 3)), luminance(sky->power(ball)),
+                            4 * k_pi * luminance(Rgb(2, 3, 4))};
+  const double total = weights[0] + weights[1] + weights[2];
+  EXPECT_NEAR(sky_probability, weights[1] / total, 1e-6);
+  EXPECT_NEAR(luminance(emitters.power()), total, 1e-4 * total);
+
+  const Point3 reference{0.1f, -0.3f, 0.2f};
+  Random random(10);
+  constexpr int k_samples = 50000;
+  std::vector<double> chosen(3), expected;
+  for (const double weight : weights) expected.push_back(k_samples * weight / total);
+  for (int i = 0; i < k_samples; ++i) {
+    const double u_select = random.uniform();
+    const auto sample = emitters.sample_direct(reference, u_select, random.get2());
+    ASSERT_TRUE(sample);
+    if (sample->infinite) {
+      ++chosen[1];
+      ASSERT_FLOAT_EQ(sample->pdf_solid_angle, sky_probability * sky->pdf_direct(sample->wi));
+      ASSERT_EQ(sample->radiance, sky->radiance(sample->wi));
+    } else if (sample->delta) {
+      ++chosen[2];
+      ASSERT_NEAR(sample->pdf_solid_angle, weights[2] / total, 1e-6);
+    } else {
+      ++chosen[0];
+      const auto hit = scene.intersect({reference, sample->wi});
+      ASSERT_TRUE(hit);
+      ASSERT_NEAR(emitters.pdf_direct(reference, *hit) / sample->pdf_solid_angle, 1, 2e-4);
+    }
+  }
+  EXPECT_GT(chi_square_test(chosen, expected).p_value, 1e-3);
+}
+
+// What particles bring to a small rectangle below the lamp is what light sampling finds there. False alarm 0.1 %.
+TEST(Emitters, OfAllKindsGiveTheSameByParticlesAndBySampling) {
+  const Scene scene = lamp_sky_and_point();
+  const Vec2 half{0.3f, 0.2f};
+  const float height = 0.2f;
+  Random random(11);
+  Moments particles, direct, carried;
+  for (int i = 0; i < 200000; ++i) {
+    const double u_particle = random.uniform();
+    const Vec2 u_point = random.get2();
+    const EmissionSample particle = scene.emitters().sample_emission(u_particle, u_point, random.get2());
+    carried.add(luminance(particle.power));
+    const float distance = (height - particle.ray.origin.y) / particle.ray.direction.y;
+    const Point3 landing = particle.ray.at(distance);
+    const bool lands = particle.ray.direction.y < 0 && distance > 0 && std::abs(landing.x) < half.x &&
+                       std::abs(landing.z) < half.y &&
+                       !scene.occluded({particle.ray.origin, particle.ray.direction, distance});
+    particles.add(lands ? luminance(particle.power) : 0);
+
+    const Vec2 u = random.get2();
+    const Point3 position{half.x * (2 * u.x - 1), height, half.y * (2 * u.y - 1)};
+    const double u_light = random.uniform();
+    const auto sample = scene.emitters().sample_direct(position, u_light, random.get2());
+    const bool lit =
+        sample && sample->wi.y > 0 &&
+        !scene.occluded(sample->infinite ? Ray{position, sample->wi} : segment(position, sample->position));
+    direct.add(lit ? luminance(sample->radiance) * sample->wi.y / sample->pdf_solid_angle * 4 * half.x * half.y : 0);
+  }
+  EXPECT_GT(same_mean_p_value(particles, direct), sidak(1e-3, 2)) << particles.mean() << " " << direct.mean();
+  EXPECT_NEAR(carried.mean(), luminance(scene.emitters().power()), 1e-4 * carried.mean());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "scene/lights/environment_map.h"
 #include "scene/lights/point.h"
 #include "scene/lights/spot.h"
+#include "scene/lights/sun_sky_map.h"
 #include "scene/loaders/transform.h"
 #include "support/random.h"
 
@@ -57,6 +58,15 @@ inline Orientation oblique(bool mirrored = false) {
   return orientation;
 }
 
+/// Sky and a sun of 30 times its radius, small enough for tests of directions.
+inline RgbImage small_sky(float sky_scale, float sun_scale) {
+  const ClearSky sky{.sun = {0.9, -2.8}, .extend = true};
+  RgbImage map = black_map(32);
+  if (sky_scale > 0) add_sky(map, sky, sky_scale);
+  if (sun_scale > 0) add_sun(map, sky, sun_scale, 30);
+  return map;
+}
+
 inline std::vector<LightCase> environment_cases() {
   const auto map = [](RgbImage image, const Orientation& orientation = {}) {
     return std::make_shared<const EnvironmentMap>(std::move(image), orientation);
@@ -73,6 +83,9 @@ inline std::vector<LightCase> environment_cases() {
       {"map_of_one_texel", map(random_map(1, 1, 6))},
       {"map_of_one_column", map(random_map(1, 9, 7))},
       {"map_of_one_row", map(random_map(9, 1, 8))},
+      {"sun", std::make_shared<const EnvironmentMap>(small_sky(0, 1), Orientation(), "sun")},
+      {"sky", std::make_shared<const EnvironmentMap>(small_sky(1, 0), oblique(), "sky")},
+      {"sunsky", std::make_shared<const EnvironmentMap>(small_sky(1, 1), Orientation(), "sunsky")},
   };
 }
 

@@ -210,7 +210,7 @@ TEST(LoaderErrors, RefuseDefinitionsOfNothing) {
 TEST(LoaderPermissive, TurnsWhatIsNotRecognisedIntoNotes) {
   LoadOptions options;
   options.permissive = true;
-  const SceneDescription scene = load(R"(<medium type="fog"/><shape type="teapot"/><emitter type="sky"/>
+  const SceneDescription scene = load(R"(<medium type="fog"/><shape type="teapot"/><emitter type="aurora"/>
     <shape type="rectangle"><float name="radius" value="1"/><bsdf type="velvet"/></shape>)",
                                       options);
   ASSERT_EQ(scene.meshes.size(), 1u);
