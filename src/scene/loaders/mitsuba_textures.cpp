@@ -97,7 +97,9 @@ Texture make_bitmap_texture(MitsubaTextures& textures, MitsubaProperties& proper
   options.channel = read_channel(properties, texels->channels);
   options.encoding = read_encoding(properties, *texels, options.channel);
   for (const char* name : {"max_anisotropy", "cache", "max_resolution", "accel", "format"}) properties.ignore(name);
-  return Texture(make_bitmap(texels, options));
+  const Texture bitmap(make_bitmap(texels, options));
+  if (!is_finite(bitmap.max_value())) properties.fail("gamma", "\"gamma\" makes values that are too large");
+  return bitmap;
 }
 
 Texture make_checkerboard_texture(MitsubaTextures& textures, MitsubaProperties& properties) {
