@@ -179,7 +179,7 @@ TEST_F(Textures, AreBuiltOnceAndFoundByIdWhereverTheyStand) {
 }
 
 TEST_F(Textures, FilesAreRememberedOnceInTheOrderOfTheScene) {
-  const auto file = folder_.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"/>
+  const auto file = folder_.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
       <texture type="bitmap" id="b"><string name="filename" value="two.tga"/></texture>
       <texture type="bitmap" id="c"><string name="filename" value="light.hdr"/></texture>
       <texture type="bitmap" id="d"><string name="filename" value="two.tga"/></texture></scene>)");
