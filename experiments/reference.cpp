@@ -5,12 +5,12 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/exr.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "experiments/build_info.h"
 #include "experiments/render.h"
 #include "experiments/sha256.h"
-#include "core/exr.h"
 #include "scene/scene.h"
 
 namespace gradslc {

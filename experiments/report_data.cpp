@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/exr.h"
 #include "core/file.h"
 #include "experiments/number_format.h"
 #include "experiments/report_images.h"
 #include "experiments/results_folder.h"
-#include "core/exr.h"
 
 namespace gradslc {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/exr.h"
 #include "experiments/cli/commands.h"
 #include "experiments/metrics.h"
-#include "core/exr.h"
 
 namespace gradslc {
 namespace {

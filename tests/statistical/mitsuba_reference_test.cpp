@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/hash.h"
 #include "core/exr.h"
+#include "core/hash.h"
 #include "scene/loaders/loader.h"
 #include "support/render/method.h"
 

@@ -7,10 +7,10 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/exr.h"
 #include "core/file.h"
 #include "experiments/scene_hash.h"
 #include "fakes.h"
-#include "core/exr.h"
 
 namespace gradslc {
 namespace {

@@ -7,12 +7,12 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/exr.h"
 #include "core/file.h"
 #include "experiments/render.h"
 #include "experiments/results_folder.h"
 #include "experiments/sha256.h"
 #include "fakes.h"
-#include "core/exr.h"
 
 namespace gradslc {
 namespace {

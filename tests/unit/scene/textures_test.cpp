@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "scene/loaders/loader.h"
+#include "scene/loaders/mitsuba_properties.h"
 #include "support/temporary_folder.h"
 #include "unit/scene/image_bytes.h"
 
@@ -179,12 +180,26 @@ TEST_F(Textures, AreBuiltOnceAndFoundByIdWhereverTheyStand) {
 }
 
 TEST_F(Textures, FilesAreRememberedOnceInTheOrderOfTheScene) {
-  const auto file = folder_.write("scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
+  const auto file = folder_.write(
+      "scene.xml", R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
       <texture type="bitmap" id="b"><string name="filename" value="two.tga"/></texture>
       <texture type="bitmap" id="c"><string name="filename" value="light.hdr"/></texture>
       <texture type="bitmap" id="d"><string name="filename" value="two.tga"/></texture></scene>)");
   EXPECT_EQ(load_scene(file.string()).files,
             (std::vector<std::filesystem::path>{file, folder_.path() / "two.tga", folder_.path() / "light.hdr"}));
+}
+
+TEST_F(Textures, ThoseInsideAreTheOnesThatNoPropertyHasRead) {
+  const LoadOptions options;
+  MitsubaDocument document("test.xml", R"(<scene version="3.0.0"><texture type="x">
+      <texture name="a" type="b"/><texture type="c"/></texture></scene>)",
+                           options);
+  MitsubaProperties properties(document, document.objects().at(0));
+  EXPECT_TRUE(properties.texture_element("a"));
+  const std::vector<XmlElement> rest = properties.unread_objects("texture");
+  ASSERT_EQ(rest.size(), 1u);
+  EXPECT_EQ(document.attribute(rest[0], "type"), "c");
+  EXPECT_TRUE(properties.unread_objects("texture").empty());
 }
 
 TEST_F(Textures, BumpMapsTakeTheirTextureByAnyName) {
