@@ -146,6 +146,7 @@ void MitsubaTextures::find_images(const XmlElement& element) {
 
 void MitsubaTextures::read_images() {
   std::vector<std::pair<const std::filesystem::path, Image>*> images;
+  images.reserve(images_.size());
   for (auto& image : images_) images.push_back(&image);
   parallel_for(images.size(), 1, [&](std::size_t begin, std::size_t) {
     auto& [file, image] = *images[begin];

@@ -158,6 +158,13 @@ std::string input_error(const fs::path& path) {
   return "";
 }
 
+TEST_F(Exr, LuminanceAloneIsGrey) {
+  const RgbImage image = read_exr(file_of(ExrBytes{.channels = {"Y"}}.build(test_bits))).image;
+  ASSERT_EQ(image.resolution(), (Resolution{2, 2}));
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x) EXPECT_EQ(image(x, y), Rgb(test_value("Y", x, y)));
+}
+
 TEST_F(Exr, MissingChannelsAreAnErrorThatNamesThoseThatExist) {
   const std::string message = input_error(file_of(ExrBytes{.channels = {"B", "R", "depth.Z"}}.build(test_bits)));
   EXPECT_EQ(message, "has no channel G; R, G and B, or Y, are needed, there are: B, R, depth.Z");
