@@ -158,7 +158,7 @@ ExrImage decode(const std::string& bytes, const std::filesystem::path& path) {
 
   for (auto& [name, layer] : result.layers)
     std::visit([&](auto& image) { image = fit_to_display(std::move(image), window, header.displayWindow()); }, layer);
-  result.image = std::visit([](auto&& image) { return to_rgb(std::move(image)); }, std::move(result.layers.at("")));
+  result.image = std::visit([](auto& image) { return to_rgb(std::move(image)); }, result.layers.at(""));
   result.layers.erase("");
   return result;
 }

@@ -97,7 +97,9 @@ Texture make_bitmap_texture(MitsubaTextures& textures, MitsubaProperties& proper
   options.channel = read_channel(properties, texels->channels);
   options.encoding = read_encoding(properties, *texels, options.channel);
   for (const char* name : {"max_anisotropy", "cache", "max_resolution", "accel", "format"}) properties.ignore(name);
-  return Texture(make_bitmap(texels, options));
+  const Texture bitmap(make_bitmap(texels, options));
+  if (!is_finite(bitmap.max_value())) properties.fail("gamma", "\"gamma\" makes values that are too large");
+  return bitmap;
 }
 
 Texture make_checkerboard_texture(MitsubaTextures& textures, MitsubaProperties& properties) {
@@ -144,6 +146,7 @@ void MitsubaTextures::find_images(const XmlElement& element) {
 
 void MitsubaTextures::read_images() {
   std::vector<std::pair<const std::filesystem::path, Image>*> images;
+  images.reserve(images_.size());
   for (auto& image : images_) images.push_back(&image);
   parallel_for(images.size(), 1, [&](std::size_t begin, std::size_t) {
     auto& [file, image] = *images[begin];

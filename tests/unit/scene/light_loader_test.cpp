@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "core/exr.h"
 #include "loader_fixtures.h"
 #include "scene/lights/environment_map.h"
 #include "scene/lights/sun_sky_map.h"
@@ -151,6 +153,39 @@ TEST(LightLoader, ASunWithoutRadiusIsADirectionalLight) {
     for (const LightPtr& light : parallel.lights) power += luminance(light->power(k_ball));
     EXPECT_NEAR(power, luminance(disk.lights.at(0)->power(k_ball)), 2e-3 * power);
   }
+}
+
+// Two texels: red over the upper half of the sphere's middle, green below; negative values count as 0.
+TEST(LightLoader, ReadsEnvironmentMaps) {
+  const test::TemporaryFolder folder;
+  RgbImage map({1, 2});
+  map(0, 0) = {2, 0, -1};
+  map(0, 1) = {0, 4, 0};
+  const std::string exr = folder.write("map.exr", "");
+  write_exr(exr, {.image = map, .layers = {}, .attributes = {}});
+  const SceneDescription scene =
+      load(fmt::format(R"(<emitter type="envmap"><string name="filename" value="{}"/><float name="scale" value="3"/>
+        <transform name="to_world"><rotate x="1" angle="90"/></transform></emitter>)",
+                       exr));
+  const Light& light = only_light(scene, "envmap");
+  EXPECT_EQ(light.radiance({0, 0, 1}), Rgb(6, 0, 0));  // local +y
+  EXPECT_EQ(light.radiance({0, 0, -1}), Rgb(0, 12, 0));
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_EQ(scene.notes[0], "test.xml:2: 1 texels of the map are negative in a channel: taken as 0");
+
+  const std::string hdr =
+      folder.write("map.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n") + "\x80\x40\x20\x82");
+  const SceneDescription legacy =
+      load(fmt::format(R"(<emitter type="envmap"><string name="filename" value="{}"/></emitter>)", hdr), {}, k_legacy);
+  EXPECT_NEAR(only_light(legacy, "envmap").radiance({0, 1, 0}).r, 2, 0.02f);
+
+  RgbImage broken({1, 1}, Rgb(std::numeric_limits<float>::max()));
+  write_exr(exr, {.image = broken, .layers = {}, .attributes = {}});
+  const std::string refused =
+      refusal(fmt::format(R"(<emitter type="envmap"><string name="filename" value="{}"/><float name="scale" value="2"/>
+      </emitter>)",
+                          exr));
+  EXPECT_NE(refused.find("texel (0, 0) of the map is not finite"), std::string::npos) << refused;
 }
 
 struct WrongLight {

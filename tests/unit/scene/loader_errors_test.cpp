@@ -97,8 +97,6 @@ TEST(LoaderErrors, SayWhatValuesShouldBe) {
   EXPECT_EQ(diffuse(R"(<spectrum name="reflectance" value="400:1, 700:0.5"/>)"),
             "test.xml:2:51: error: /scene/bsdf/spectrum: \"reflectance\": spectra by wavelength are not supported; "
             "give an <rgb>");
-  EXPECT_EQ(diffuse(R"(<texture name="reflectance" type="bitmap"/>)"),
-            "test.xml:2:23: error: /scene/bsdf/texture: a bitmap needs a filename");
   EXPECT_EQ(diffuse(R"(<rgb name="reflectance"/>)"),
             "test.xml:2:23: error: /scene/bsdf/rgb: attribute \"value\" is missing");
   EXPECT_EQ(diffuse(R"(<rgb name="reflectance" value=""/>)"),
