@@ -9,14 +9,15 @@ RoughDielectric::Facet RoughDielectric::facet_between(Vec3 known, Vec3 w) const 
   const float squared = length_squared(sum);
   Facet facet{};
   if (!(squared > 0)) return facet;
-  facet.h = sum / std::sqrt(squared);
+  const float length = std::sqrt(squared);
+  facet.h = sum / length;
   if (facet.h.z < 0) facet.h = -facet.h;
-  facet.cos_known = dot(known, facet.h);
-  facet.cos_w = dot(w, facet.h);
+  facet.cos_known = reflected ? std::copysign(length / 2, known.z) : dot(known, facet.h);
+  facet.cos_w = reflected ? facet.cos_known : dot(w, facet.h);
   if (facet.cos_known * known.z <= 0 || facet.cos_w * w.z <= 0) return facet;
   facet.density = microfacet.d(facet.h);
-  const float cos_outside = known.z > 0 ? facet.cos_known : reflected ? -std::abs(facet.cos_known) : facet.cos_w;
-  facet.reflectance = fresnel_dielectric(std::clamp(cos_outside, -1.0f, 1.0f), eta).reflectance;
+  const float cos_i = reflected || known.z > 0 ? facet.cos_known : facet.cos_w;  // refraction is seen from outside
+  facet.reflectance = fresnel_dielectric(std::clamp(cos_i, -1.0f, 1.0f), eta).reflectance;
   facet.jacobian = reflected ? 1 / (4 * std::abs(facet.cos_w)) : eta_w * eta_w * std::abs(facet.cos_w) / squared;
   return facet;
 }
