@@ -3,28 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.h"
 #include "materials/fresnel.h"
 
 namespace gradslc {
 namespace {
 
 /// Mean over the visible facets of (1 - F) G1(refracted direction): midpoint rule over the square that they are sampled
-/// from.
+/// from, in coordinates that are denser at its border, where steep facets are rare but shadow all.
 float transmittance(const Microfacet& microfacet, float eta, float cos_theta) {
   constexpr int n = 32;
   const Vec3 wi{std::sqrt(std::max(0.0f, 1 - cos_theta * cos_theta)), 0, cos_theta};
-  double sum = 0;
+  double sum = 0, total = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Vec2 u{(static_cast<float>(i) + 0.5f) / n, (static_cast<float>(j) + 0.5f) / n};
-      const Vec3 m = microfacet.sample_visible(wi, u);
+      const float a = k_pi / 2 * ((2 * static_cast<float>(i) + 1) / n - 1);
+      const float b = k_pi / 2 * ((2 * static_cast<float>(j) + 1) / n - 1);
+      const float weight = std::cos(a) * std::cos(b);
+      total += weight;
+      const Vec3 m = microfacet.sample_visible(wi, {(1 + std::sin(a)) / 2, (1 + std::sin(b)) / 2});
       const float cos_i = dot(wi, m);
       if (cos_i <= 0) continue;
       const DielectricFresnel fresnel = fresnel_dielectric(cos_i, eta);
       const Vec3 wo = m * (cos_i / eta + fresnel.cos_transmitted) - wi / eta;
-      if (fresnel.reflectance < 1 && wo.z < 0) sum += (1 - fresnel.reflectance) * microfacet.g1(wo);
+      if (fresnel.reflectance < 1 && wo.z < 0) sum += weight * (1 - fresnel.reflectance) * microfacet.g1(wo);
     }
-  return static_cast<float>(sum / (n * n));
+  return static_cast<float>(sum / total);
 }
 
 }  // namespace

@@ -22,9 +22,10 @@ struct MicrofacetReflection {
 
   Rgb eval(Vec3 wo, Vec3 wi) const {
     if (wo.z <= 0 || wi.z <= 0) return Rgb();
-    const Vec3 h = normalize(wo + wi);
-    const float facets = microfacet.d(h) * microfacet.g1_over_cos(wo) * microfacet.g1_over_cos(wi) / 4;
-    return reflectance * fresnel(std::min(dot(wi, h), 1.0f)) * facets;
+    const Vec3 sum = wo + wi;
+    const float twice_cos = length(sum);
+    const float facets = microfacet.d(sum / twice_cos) * microfacet.g1_over_cos(wo) * microfacet.g1_over_cos(wi) / 4;
+    return reflectance * fresnel(std::min(twice_cos / 2, 1.0f)) * facets;
   }
   std::optional<BsdfSample> sample(Vec3 known, float /*u_choice*/, Vec2 u, Transport) const {
     if (known.z <= 0) return std::nullopt;

@@ -1,6 +1,11 @@
 #include "materials/lobes/rough_dielectric.h"
 
 namespace gradslc {
+namespace {
+
+Vec3 outwards(Vec3 w) { return {w.x, w.y, std::abs(w.z)}; }
+
+}  // namespace
 
 RoughDielectric::Facet RoughDielectric::facet_between(Vec3 known, Vec3 w) const {
   const bool reflected = known.z * w.z > 0;
@@ -9,14 +14,15 @@ RoughDielectric::Facet RoughDielectric::facet_between(Vec3 known, Vec3 w) const 
   const float squared = length_squared(sum);
   Facet facet{};
   if (!(squared > 0)) return facet;
-  facet.h = sum / std::sqrt(squared);
+  const float length = std::sqrt(squared);
+  facet.h = sum / length;
   if (facet.h.z < 0) facet.h = -facet.h;
-  facet.cos_known = dot(known, facet.h);
-  facet.cos_w = dot(w, facet.h);
+  facet.cos_known = reflected ? std::copysign(length / 2, known.z) : dot(known, facet.h);
+  facet.cos_w = reflected ? facet.cos_known : dot(w, facet.h);
   if (facet.cos_known * known.z <= 0 || facet.cos_w * w.z <= 0) return facet;
   facet.density = microfacet.d(facet.h);
-  const float cos_outside = known.z > 0 ? facet.cos_known : reflected ? -std::abs(facet.cos_known) : facet.cos_w;
-  facet.reflectance = fresnel_dielectric(std::clamp(cos_outside, -1.0f, 1.0f), eta).reflectance;
+  const float cos_i = reflected || known.z > 0 ? facet.cos_known : facet.cos_w;  // refraction is seen from outside
+  facet.reflectance = fresnel_dielectric(std::clamp(cos_i, -1.0f, 1.0f), eta).reflectance;
   facet.jacobian = reflected ? 1 / (4 * std::abs(facet.cos_w)) : eta_w * eta_w * std::abs(facet.cos_w) / squared;
   return facet;
 }
@@ -75,15 +81,44 @@ float RoughDielectric::max_refraction(float eta) {
   return k_pi * dense * dense / (difference * difference);
 }
 
+float RoughDielectric::refraction(float cos_known, float ratio) const {
+  const float cos2_other = 1 - (1 - cos_known * cos_known) * ratio * ratio;
+  if (cos2_other <= 0) return 0;
+  const float cos_other = std::sqrt(cos2_other), difference = ratio * cos_known - cos_other;
+  const float dense = std::max(ratio, 1.0f);  // the larger index over that of the other side
+  return k_pi * dense * dense * cos_known * cos_other / (difference * difference);
+}
+
+float RoughDielectric::refraction_bound(Vec3 known, bool by_cosine) const {
+  constexpr int rings = 8;
+  constexpr float slopes[rings] = {0, 0.3f, 0.6f, 1, 1.5f, 2.2f, 3.5f, 7};  // over roughness
+  const float wide = std::max(microfacet.alpha_u, microfacet.alpha_v);
+  const float ratio = known.z > 0 ? 1 / eta : eta;
+  const float theta = std::atan2(std::sqrt(known.x * known.x + known.y * known.y), std::abs(known.z));
+  float largest = 0, low = 0;
+  for (int i = 0; i < rings; ++i) {
+    const float high = i + 1 < rings ? std::atan(wide * slopes[i + 1]) : k_pi / 2;
+    float bound = microfacet.max_d(low) * refraction(std::cos(std::max(0.0f, theta - high)), ratio);
+    if (!by_cosine) {
+      const float sin_other = std::min(1.0f, ratio * std::sin(std::min(k_pi / 2, theta + high)));
+      const float inclination = std::min(k_pi / 2, high + std::asin(sin_other));
+      bound *= microfacet.max_g1_over_cos(1, std::max(std::cos(inclination), 0.0f));
+    }
+    largest = std::max(largest, bound);
+    low = high;
+  }
+  return max_channel(transmittance) * largest * microfacet.g1_over_cos(known) * 1.0005f;
+}
+
 ReflectionBound RoughDielectric::reflection_bound(Vec3 known) const {
   if (known.z == 0) return {};
-  const float scattered =
-      std::max(max_channel(reflectance) * k_pi / 4, max_channel(transmittance) * max_refraction(eta));
-  return {.cosine = 0, .constant = scattered * microfacet.max_d(0) * microfacet.g1_over_cos(known) * 1.0005f};
+  const ReflectionBound reflected = reflecting_side(known).reflection_bound(outwards(known));
+  return {.cosine = 0, .constant = std::max(reflected.constant, refraction_bound(known, true))};
 }
 
 float RoughDielectric::max_pi_f(Vec3 known) const {
-  return reflection_bound(known).constant * microfacet.max_g1_over_cos(0, 1);
+  if (known.z == 0) return 0;
+  return std::max(reflecting_side(known).max_pi_f(outwards(known)), refraction_bound(known, false));
 }
 
 }  // namespace gradslc

@@ -4,6 +4,7 @@
 
 #include "materials/lobes.h"
 #include "materials/lobes/fresnel_terms.h"
+#include "materials/lobes/microfacet_reflection.h"
 #include "materials/microfacet.h"
 
 namespace gradslc {
@@ -28,8 +29,7 @@ struct RoughDielectric {
   float max_pi_f(Vec3 known) const;
   Rgb feature_albedo() const { return energy({0, 0, 1}); }
 
-  /// Factor by which refraction at most exceeds D G1 G1 / (cos cos), times pi: eta_o^2 |wi.h| |wo.h| over the square of
-  /// (eta_i wi.h + eta_o wo.h) is largest where the normal is hit straight.
+  /// Upper bound of refraction() for all angles: where facets are hit straight.
   static float max_refraction(float eta);
 
  private:
@@ -42,6 +42,15 @@ struct RoughDielectric {
   };
   Facet facet_between(Vec3 known, Vec3 w) const;
   float reflection_probability(float fresnel) const;
+  /// Upper bound of pi times what pi f of the refraction has beside D, G1 / cos and G1 / cos: eta_o^2 |wi.h| |wo.h|
+  /// over the square of (eta_i wi.h + eta_o wo.h), which grows with |known.h|. `ratio`: index on known's side over the
+  /// other.
+  float refraction(float cos_known, float ratio) const;
+  /// Upper bound of pi f, or of pi f |cos_w|, of the refraction: the largest of those for rings of facets by their
+  /// inclination, of which the steeper are rarer, but may be hit straighter.
+  float refraction_bound(Vec3 known, bool by_cosine) const;
+  /// The interface as those who are on known's side see it, without what it lets pass.
+  RoughCoat reflecting_side(Vec3 known) const { return {microfacet, {known.z > 0 ? eta : 1 / eta}, reflectance}; }
 };
 
 }  // namespace gradslc

@@ -75,7 +75,8 @@ float MicrofacetTextures::max_alpha() const {
 
 float MicrofacetTextures::max_facets(float connectable_roughness) const {
   const float narrow = std::max(min_alpha(), connectable_roughness), wide = max_alpha();
-  if (narrow > wide) return 0;
+  const float roughest = std::min(mean_channel(alpha_u.max_value()), mean_channel(alpha_v.max_value()));
+  if (std::max(roughest, Microfacet::k_min_alpha) < connectable_roughness) return 0;
   // Both roughnesses lie between narrow and wide: the density is highest where the surface is flat and narrow, but for
   // facets off the normal where it is wide.
   const Microfacet narrowest{type, narrow, narrow}, widest{type, wide, wide};
