@@ -52,8 +52,7 @@ TEST(Obj, SharesVerticesThatAgreeInAllIndices) {
 TEST(Obj, FlipsTextureCoordinatesUnlessToldNotTo) {
   const std::string text = std::string(k_square) + "vt 0.25 0.125 7\nf 1/1 2/1 3/1\n";
   EXPECT_EQ(parse(text).uvs[0], (Vec2{0.25f, 0.875f}));
-  EXPECT_EQ(parse(text, {.face_normals = false, .flip_tex_coords = false}).uvs[0],
-            (Vec2{0.25f, 0.125f}));
+  EXPECT_EQ(parse(text, {.face_normals = false, .flip_tex_coords = false}).uvs[0], (Vec2{0.25f, 0.125f}));
 }
 
 TEST(Obj, LeavesMissingUvsAndNormalsEmptyOrZero) {
