@@ -1,5 +1,6 @@
 #include "experiments/scene_hash.h"
 
+#include <bit>
 #include <span>
 
 #include "experiments/sha256.h"
@@ -45,6 +46,9 @@ void add_camera(Sha256& hash, const PerspectiveCamera& camera) {
     add_values(hash, &ray.origin, 1);
     add_values(hash, &ray.direction, 1);
   }
+  if (!camera.has_lens()) return;
+  hash.add_number(std::bit_cast<std::uint32_t>(camera.lens().radius));
+  hash.add_number(std::bit_cast<std::uint32_t>(camera.lens().focus_distance));
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ LobeChoice choose_lobe(const PathVertex& vertex, const LobeSelection& lobes, flo
 CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   CameraPrefix prefix;
   Rgb throughput(1);
-  Ray ray = context.scene.camera().generate_ray(position);
+  const PerspectiveCamera& camera = context.scene.camera();
+  Ray ray =
+      camera.has_lens() ? camera.generate_ray(position, context.random.get2(Use::lens)) : camera.generate_ray(position);
   RayOrigin origin{.position = ray.origin};
   for (int edges = 1; edges <= context.settings.max_depth; ++edges) {
     ++context.rays;

@@ -41,7 +41,9 @@ class PathTracer final : public Integrator {
   template <class Throughput>
   PartValues sample(const PassSlot& slot, std::size_t index, std::uint64_t& rays) const {
     auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, index);
-    const Ray ray = scene_->camera().generate_ray(position);
+    const PerspectiveCamera& camera = scene_->camera();
+    const Ray ray = camera.has_lens() ? camera.generate_ray(position, context.random.get2(Use::lens))
+                                      : camera.generate_ray(position);
     PartValues radiance;
     trace_path(context, ray, {.position = ray.origin}, Throughput(), 0, settings_.max_depth, roulette_depth_, radiance);
     rays += context.rays;

@@ -1,5 +1,6 @@
 // Time to load the largest of the real scenes (geometry only), beside what cannot be avoided: reading its bytes and
-// building the Embree tree.
+// building the Embree tree. Run it with OMP_WAIT_POLICY=passive, as gradslc runs: OpenMP's idle threads otherwise spin
+// while Embree's build.
 
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>

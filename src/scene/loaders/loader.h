@@ -9,7 +9,8 @@
 namespace gradslc {
 
 struct LoadOptions {
-  std::optional<int> width, height;                ///< replace the film's; one alone keeps the aspect ratio
+  /// Replace the film's; one alone keeps the aspect ratio. A crop window scales with its film.
+  std::optional<int> width, height;
   std::map<std::string, std::string> definitions;  ///< values for <default> parameters ($name), as Mitsuba's -D
   bool permissive = false;                         ///< what is not recognised becomes a note instead of an error
 };

@@ -31,10 +31,14 @@ class AsciiReader {
   /// Fewest bytes that a value can take: a digit, and a blank before it.
   static std::size_t min_size(PlyType) { return 2; }
   std::size_t remaining() const { return bytes_.size() - position_; }
-  std::size_t position() const { return position_; }
+  /// Of the next value.
+  std::size_t position() {
+    while (position_ < bytes_.size() && is_blank(bytes_[position_])) ++position_;
+    return position_;
+  }
 
   double read(PlyType) {
-    while (position_ < bytes_.size() && is_blank(bytes_[position_])) ++position_;
+    position();
     const char* begin = bytes_.data() + position_;
     const char* const end = bytes_.data() + bytes_.size();
     if (begin == end) fail(position_, "the file ends too early: a number is needed here");
@@ -185,7 +189,7 @@ class PlyBody {
 
  private:
   /// A count that the file cannot hold is found before memory is asked for.
-  void check_count(const PlyElement& element) const {
+  void check_count(const PlyElement& element) {
     std::uint64_t bytes = 0;
     for (const PlyProperty& property : element.properties)
       bytes += Reader::min_size(is_list(property) ? *property.count_type : property.type);

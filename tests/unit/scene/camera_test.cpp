@@ -113,6 +113,73 @@ TEST(PerspectiveCamera, FocalLengthIsThatOfA35MillimetreCamera) {
   EXPECT_NEAR(extent.y, 12.0f / 50, 1e-5f);
 }
 
+TEST(PerspectiveCamera, FocalLengthIs50MillimetresWhereNothingIsSaid) {
+  const Vec2 extent =
+      half_extent(load_camera("", R"(<integer name="width" value="360"/><integer name="height" value="240"/>)"));
+  EXPECT_NEAR(extent.x, 18.0f / 50, 1e-5f);
+}
+
+TEST(PerspectiveCamera, ACropIsTheMatchingPartOfTheWholeImage) {
+  constexpr std::string_view k_crop =
+      R"(<integer name="crop_offset_x" value="100"/><integer name="crop_offset_y" value="40"/>
+         <integer name="crop_width" value="50"/><integer name="crop_height" value="60"/>)";
+  for (const char* axis : {"x", "y", "diagonal", "smaller", "larger"}) {
+    const std::string fov = fmt::format(
+        R"(<float name="fov" value="60"/><string name="fov_axis" value="{}"/>
+           <float name="principal_point_offset_x" value="0.1"/><float name="principal_point_offset_y" value="-0.3"/>)",
+        axis);
+    const PerspectiveCamera whole = load_camera(fov, k_wide);
+    const PerspectiveCamera crop = load_camera(fov, std::string(k_wide).append(k_crop));
+    EXPECT_EQ(crop.resolution(), (Resolution{50, 60}));
+    for (const Vec2 p : {Vec2{0, 0}, {50, 60}, {12.25f, 31.5f}})
+      expect_direction(crop.generate_ray(p).direction, whole.generate_ray(p + Vec2{100, 40}).direction);
+  }
+}
+
+TEST(PerspectiveCamera, ACropScalesWithAFilmWhoseSizeIsOverridden) {
+  constexpr std::string_view k_crop =
+      R"(<integer name="crop_offset_x" value="100"/><integer name="crop_offset_y" value="40"/>
+         <integer name="crop_width" value="50"/><integer name="crop_height" value="60"/>)";
+  LoadOptions options;
+  const auto crop = [&](int width) {
+    options.width = width;
+    return load_camera(R"(<float name="fov" value="60"/>)", std::string(k_wide).append(k_crop), options);
+  };
+  EXPECT_EQ(crop(800).resolution(), (Resolution{100, 120}));
+  EXPECT_EQ(crop(1).resolution(), (Resolution{1, 1}));
+  const PerspectiveCamera whole = load_camera(R"(<float name="fov" value="60"/>)", k_wide);
+  expect_direction(crop(800).generate_ray({0, 120}).direction, whole.generate_ray({100, 100}).direction);
+}
+
+// Mitsuba: the ray of a film position is that of the position plus the offset times the film's size.
+TEST(PerspectiveCamera, ThePrincipalPointMovesTheImage) {
+  constexpr std::string_view k_fov = R"(<float name="fov" value="90"/>)";
+  const PerspectiveCamera moved =
+      load_camera(std::string(k_fov) + R"(<float name="principal_point_offset_x" value="0.25"/>
+                                          <float name="principal_point_offset_y" value="0.5"/>)",
+                  k_wide);
+  const PerspectiveCamera centred = load_camera(k_fov, k_wide);
+  expect_direction(moved.generate_ray({0, 0}).direction, centred.generate_ray({100, 100}).direction);
+  expect_direction(moved.generate_ray({100, 0}).direction, {0, 0, 1});
+}
+
+TEST(PerspectiveCamera, FilmsAreKnownByTheirSizes) {
+  for (const char* film : {"hdrfilm", "ldrfilm", "mfilm"}) {
+    const SceneDescription scene =
+        load_scene_text(fmt::format(R"(<scene version="3.0.0"><sensor type="perspective"><film type="{}">{}
+                       <rfilter type="box"/></film></sensor></scene>)",
+                                    film, k_wide),
+                        "camera.xml");
+    EXPECT_EQ(scene.camera.resolution(), (Resolution{400, 200})) << film;
+    EXPECT_TRUE(scene.notes.empty()) << film;
+  }
+  const SceneDescription tent = load_scene_text(
+      R"(<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">
+         <rfilter type="tent"/></film></sensor></scene>)",
+      "camera.xml");
+  EXPECT_EQ(tent.notes.size(), 1u);
+}
+
 TEST(PerspectiveCamera, SizeMayBeOverridden) {
   const auto size = [](std::optional<int> width, std::optional<int> height) {
     LoadOptions options;
@@ -133,8 +200,6 @@ TEST(PerspectiveCamera, RefusesWhatItCannotShow) {
   EXPECT_EQ(with(""), "accepted");
   EXPECT_EQ(with(R"(<float name="near_clip" value="1"/><float name="far_clip" value="5"/>)"), "accepted");
   EXPECT_EQ(with(R"(<float name="principal_point_offset_x" value="0"/>)"), "accepted");
-  EXPECT_EQ(with(R"(<float name="principal_point_offset_x" value="0.1"/>)"),
-            "principal_point_offset_x is not supported");
   EXPECT_EQ(with(R"(<string name="fov_axis" value="z"/>)"),
             "unknown fov_axis \"z\"; known: x, y, diagonal, smaller, larger");
   EXPECT_EQ(with(R"(<transform name="to_world"><scale x="2"/></transform>)"),
@@ -143,7 +208,7 @@ TEST(PerspectiveCamera, RefusesWhatItCannotShow) {
             "the sensor's transform must not scale its axes differently");
   EXPECT_EQ(with(R"(<transform name="to_world"><matrix value="1 0.6 0  0 0.8 0  0 0 1"/></transform>)"),
             "the sensor's transform must not shear");
-  EXPECT_EQ(refusal(""), "a perspective sensor needs fov (degrees) or focal_length");
+  EXPECT_EQ(with(R"(<string name="focal_length" value="50mm"/>)"), "give either fov or focal_length, not both");
   EXPECT_EQ(refusal(R"(<float name="fov" value="180"/>)"), "fov must be above 0 and below 180 degrees, not 180");
   EXPECT_EQ(refusal(k_fov, R"(<integer name="width" value="0"/>)"), "film width must be from 1 to 65536, not 0");
   EXPECT_EQ(refusal(k_fov, R"(<integer name="height" value="2000000000"/>)"),
@@ -152,8 +217,13 @@ TEST(PerspectiveCamera, RefusesWhatItCannotShow) {
             "\"height\" must be an integer, not \"20000000000\"");
   EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_width" value="768"/><integer name="crop_offset_x" value="0"/>)"),
             "accepted");
-  EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_width" value="100"/>)"),
-            "crop windows are not supported: the whole film is rendered");
+  EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_width" value="100"/>)"), "accepted");
+  EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_width" value="769"/>)"),
+            "crop_width must be from 1 to 768, the rest of the film, not 769");
+  EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_offset_y" value="500"/><integer name="crop_height" value="77"/>)"),
+            "crop_height must be from 1 to 76, the rest of the film, not 77");
+  EXPECT_EQ(refusal(k_fov, R"(<integer name="crop_offset_x" value="-1"/>)"),
+            "crop_offset_x must be from 0 to 767, not -1");
   LoadOptions options;
   options.width = 0;
   EXPECT_EQ(refusal(k_fov, {}, options), "the image's width and height must be from 1 to 65536, not 0");
