@@ -124,7 +124,8 @@ void expect_agreement(const std::string& label, const Blocks& blocks, int column
     const double theirs = (blocks.a[i] + blocks.b[i]) / 2, difference = ours.mean() - theirs;
     const double variance =
         ours.standard_error() * ours.standard_error() + local_variance(blocks.a, blocks.b, columns, i);
-    if (std::abs(difference) <= 0.03 * theirs || difference * difference <= 3.5 * 3.5 * variance) continue;
+    const double tolerance = 0.03 * std::max(theirs, 1e-3 * reference_mean);
+    if (std::abs(difference) <= tolerance || difference * difference <= 3.5 * 3.5 * variance) continue;
     ++beyond;
     list += fmt::format(" ({}, {}): {:+.1f} %", i % static_cast<std::size_t>(columns),
                         i / static_cast<std::size_t>(columns), 100 * difference / theirs);
