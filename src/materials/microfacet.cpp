@@ -12,7 +12,7 @@ namespace {
 
 constexpr float k_inv_sqrt_pi = std::numbers::inv_sqrtpi_v<float>;
 
-/// To 0.4 % (Winitzki 2008, "A handy approximation for the error function and its inverse"). `y` in (-1, 1).
+/// To 0.2 % (Winitzki 2008, "A handy approximation for the error function and its inverse"). `y` in (-1, 1).
 double approximate_inverse_erf(double y) {
   constexpr double a = 0.147;
   const double log = std::log1p(-y * y), b = 2 / (std::numbers::pi * a) + log / 2;

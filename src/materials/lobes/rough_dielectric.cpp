@@ -58,6 +58,7 @@ std::optional<BsdfSample> RoughDielectric::sample(Vec3 known, float u_choice, Ve
   const DielectricFresnel fresnel = fresnel_dielectric(std::clamp(cos_m, -1.0f, 1.0f), eta);
   const float p = reflection_probability(fresnel.reflectance);
   const bool reflected = u_choice < p;
+  if (!reflected && fresnel.reflectance == 1) return std::nullopt;
   const float bend = known.z > 0 ? 1 / eta : eta;  // index on known's side over index on the other
   const Vec3 w = reflected ? 2 * cos_m * m - known : (bend * cos_m + fresnel.cos_transmitted) * m - bend * known;
   if (reflected != (known.z * w.z > 0)) return std::nullopt;

@@ -37,6 +37,12 @@ MaterialPtr rough_dielectric(const char* distribution, float alpha_u, float alph
   return make_plugin("roughdielectric", properties);
 }
 
+MaterialPtr rough_glass_without_reflection() {
+  FakeProperties properties = facets("ggx", 0.3f, 0.3f);
+  properties.reals["specular_reflectance"] = 0;
+  return make_plugin("roughdielectric", properties);
+}
+
 MaterialPtr tinted_glass() {
   FakeProperties properties;
   properties.colours["specular_reflectance"] = Rgb(0.3f, 0.5f, 0.9f);
@@ -102,6 +108,10 @@ std::vector<BsdfCase> bsdf_cases() {
       {"rough_tinted_glass_ggx_02_05",
        "roughdielectric",
        rough_dielectric("ggx", 0.2f, 0.5f),
+       {.both_sides = true, .transmits = true, .eta = k_bk7}},
+      {"rough_glass_without_reflection",
+       "roughdielectric",
+       rough_glass_without_reflection(),
        {.both_sides = true, .transmits = true, .eta = k_bk7}},
       {"plastic", "plastic", make_plastic(1.5f, k_grey, false)},
       {"plastic_nonlinear", "plastic", make_plastic(1.9f, k_grey, true)},

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "materials/plugins.h"
@@ -93,6 +94,8 @@ TEST(TwoSided, RefusesWhatTransmits) {
     properties.nested = {make_plugin(name)};
     EXPECT_THROW(make_plugin("twosided", properties), BadProperty) << name;
     properties.nested = {make_plugin("diffuse"), make_plugin(name)};
+    EXPECT_THROW(make_plugin("twosided", properties), BadProperty) << name;
+    std::swap(properties.nested[0], properties.nested[1]);
     EXPECT_THROW(make_plugin("twosided", properties), BadProperty) << name;
   }
 }
