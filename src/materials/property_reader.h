@@ -20,7 +20,7 @@ class PropertyReader {
   virtual ~PropertyReader() = default;
   virtual bool has(std::string_view name) const = 0;
   /// Whether it is given as text, for properties that take a number or a name.
-  virtual bool is_text(std::string_view /*name*/) const { return false; }
+  virtual bool is_text(std::string_view name) const = 0;
   virtual bool boolean(std::string_view name, bool default_value) = 0;
   virtual float real(std::string_view name, float default_value) = 0;
   virtual std::string text(std::string_view name, std::string_view default_value) = 0;

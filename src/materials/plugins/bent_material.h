@@ -21,6 +21,8 @@ class BentMaterial : public Material {
   int max_lobes() const final { return nested_->max_lobes(); }
   bool needs_derivatives() const final { return true; }
   bool bends_normals() const final { return true; }
+  bool transmits() const final { return nested_->transmits(); }
+  bool turns_frame() const final { return nested_->turns_frame(); }
   std::vector<Texture> textures() const final {
     std::vector<Texture> textures = nested_->textures();
     textures.push_back(texture_);

@@ -21,6 +21,7 @@ class MaterialPropertyReader final : public PropertyReader {
       : properties_(properties), materials_(materials), textures_(textures) {}
 
   bool has(std::string_view name) const override { return properties_.has(name); }
+  bool is_text(std::string_view name) const override { return properties_.is_text(name); }
   bool boolean(std::string_view name, bool default_value) override { return properties_.boolean(name, default_value); }
   float real(std::string_view name, float default_value) override { return properties_.real(name, default_value); }
   std::string text(std::string_view name, std::string_view default_value) override {

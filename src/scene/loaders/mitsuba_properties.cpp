@@ -57,6 +57,11 @@ std::string MitsubaProperties::id() const { return document_.attribute(element_,
 
 bool MitsubaProperties::has(std::string_view name) const { return given_.contains(name); }
 
+bool MitsubaProperties::is_text(std::string_view name) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& entry) { return entry.name == name && entry.type == "string"; });
+}
+
 MitsubaProperties::Entry* MitsubaProperties::take(std::string_view name) {
   known_.emplace(name);
   const auto found =

@@ -26,6 +26,8 @@ class MitsubaProperties {
   std::string id() const;
 
   bool has(std::string_view name) const;
+  /// Whether it is given as a <string>.
+  bool is_text(std::string_view name) const;
   bool boolean(std::string_view name, bool default_value);
   int integer(std::string_view name, int default_value);
   float real(std::string_view name, float default_value);

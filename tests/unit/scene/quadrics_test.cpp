@@ -136,15 +136,15 @@ TEST(Quadrics, ASphereStandsWhereItsPropertiesSay) {
   const float c = std::sqrt(0.5f) / 2;
   const SurfacePoint slope = hit(scene, {2 + 2 * c, 9, 3}, {0, -1, 0});
   EXPECT_NEAR(slope.position.y, 2 + c, 1e-3f);
-  EXPECT_NEAR(slope.shading.n.x, 0.5f / std::sqrt(1.25f), 2e-3f);
-  EXPECT_NEAR(slope.shading.n.y, 1 / std::sqrt(1.25f), 2e-3f);
+  EXPECT_NEAR(slope.shading_normal.x, 0.5f / std::sqrt(1.25f), 2e-3f);
+  EXPECT_NEAR(slope.shading_normal.y, 1 / std::sqrt(1.25f), 2e-3f);
 }
 
 TEST(Quadrics, MirroringKeepsNormalsOutsideAndFlippingTurnsThem) {
   const auto normal = [](std::string_view body) {
     const Scene scene(test::load(body));
     const SurfacePoint point = hit(scene, {0, 0.3f, 9}, {0, 0, -1});
-    EXPECT_GT(dot(point.geometric_normal, point.shading.n), 0);
+    EXPECT_GT(dot(point.geometric_normal, point.shading_normal), 0);
     return point.geometric_normal.z;
   };
   for (const char* shape : {"sphere", "disk"}) {

@@ -10,7 +10,7 @@
 #include "scene/lights/hosek_wilkie.h"
 #include "scene/lights/spectrum_to_rgb.h"
 #include "scene/lights/sun_sky_map.h"
-#include "scene/loaders/environment_image.h"
+#include "scene/loaders/images.h"
 #include "scene/loaders/loader.h"
 
 namespace gradslc {
@@ -48,7 +48,7 @@ double single_precision_loss() {
 /// A map that the other renderer made, from the folder of references; nothing where that is missing.
 RgbImage reference_map(const char* name) {
   const std::filesystem::path path = std::filesystem::path(GRADSLC_SHARED_DIR) / "references" / name;
-  return std::filesystem::exists(path) ? read_environment_image(path) : RgbImage();
+  return std::filesystem::exists(path) ? linear_rgb(read_image(path)) : RgbImage();
 }
 
 const EnvironmentMap& only_map(const SceneDescription& scene) {
