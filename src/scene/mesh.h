@@ -15,7 +15,7 @@ namespace gradslc {
 struct TriangleMesh {
   std::string name;
   std::vector<Point3> positions;
-  std::vector<Normal3> normals;  ///< per vertex, unit; empty: flat
+  std::vector<Normal3> normals;  ///< per vertex, unit, on the shading side; empty: flat
   std::vector<Vec2> uvs;         ///< per vertex; empty: barycentric coordinates serve
   std::vector<std::array<std::uint32_t, 3>> triangles;
   bool flip_normals = false;  ///< the geometric normal is the opposite of the winding's

@@ -59,8 +59,7 @@ Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t,
       (1 - b1 - b2) * as_vec(mesh.normals[t[0]]) + b1 * as_vec(mesh.normals[t[1]]) + b2 * as_vec(mesh.normals[t[2]]);
   const float squared = length_squared(sum);
   if (!(squared > 0)) return geometric;
-  const Vec3 normal = sum / std::sqrt(squared);
-  return as_normal(mesh.flip_normals ? -normal : normal);
+  return as_normal(sum / std::sqrt(squared));
 }
 
 }  // namespace

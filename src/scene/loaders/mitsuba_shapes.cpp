@@ -95,7 +95,7 @@ ShapePlan plan_file(MitsubaDocument& document, MitsubaProperties& properties, bo
   return {.make =
               [=] {
                 TriangleMesh mesh = load(file, options);
-                mesh.flip_normals = flip;
+                if (flip) flip_sides(mesh);
                 return mesh;
               },
           .bytes = failure ? 0 : bytes};

@@ -306,7 +306,8 @@ TEST_P(Builders, ProbabilitiesDoNotDependOnTheUnitOfLength) {
   const VplSet vpls = random_vpls(random, 50, 1, true);
   VplSet scaled = vpls;
   constexpr float k_scale = 1024;
-  for (Vpl& vpl : scaled.vpls) vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
+  for (Vpl& vpl : scaled.vpls)
+    vpl.position = {k_scale * vpl.position.x, k_scale * vpl.position.y, k_scale * vpl.position.z};
   const LightTree tree = build(vpls), large = build(scaled);
   std::vector<Receiver> receivers;
   for (int k = 0; k < 3; ++k) {

@@ -205,7 +205,7 @@ TEST(LightLoader, RefusesWhatCannotBe) {
       {R"(<emitter type="point"><point name="position" x="1" y="2" z="inf"/></emitter>)",
        "/scene/emitter/point: z must be a number, not \"inf\""},
       {R"(<emitter type="point"><point name="position" value="1 2"/></emitter>)",
-       "/scene/emitter/point: \"position\" must be three numbers"},
+       "/scene/emitter/point: \"position\" must be three numbers, not \"1 2\""},
       {R"(<emitter type="spot"><float name="cutoff_angle" value="0"/></emitter>)",
        "/scene/emitter/float: cutoff_angle must be above 0 and at most 180 degrees, not 0"},
       {R"(<emitter type="spot"><float name="beam_width" value="30"/></emitter>)",
