@@ -62,20 +62,20 @@ class ParameterAssigner final : public ParameterVisitor {
   std::string prefix_;
 };
 
-/// Block means of one image.
-std::vector<double> block_means(Resolution resolution, int block, const std::function<Rgb(Pixel)>& value,
-                                const std::function<bool(Pixel)>& counts) {
-  std::vector<double> means;
-  for (int y0 = 0; y0 < resolution.height; y0 += block)
-    for (int x0 = 0; x0 < resolution.width; x0 += block) {
-      double sum = 0;
-      int n = 0;
-      for (int y = y0; y < std::min(y0 + block, resolution.height); ++y)
-        for (int x = x0; x < std::min(x0 + block, resolution.width); ++x)
-          if (counts({x, y})) sum += static_cast<double>(luminance(value({x, y}))), ++n;
-      means.push_back(n > 0 ? sum / n : 0);
-    }
-  return means;
+/// Means of one image over regions.
+std::vector<double> region_means(const Regions& regions, const std::function<Rgb(Pixel)>& value,
+                                 const std::function<bool(Pixel)>& counts) {
+  std::vector<double> sums(regions.count, 0);
+  std::vector<int> pixels(regions.count, 0);
+  for (std::size_t i = 0; i < regions.of.size(); ++i) {
+    const Pixel pixel = regions.of.resolution().pixel(i);
+    if (!counts(pixel)) continue;
+    sums[regions.of[i]] += static_cast<double>(luminance(value(pixel)));
+    ++pixels[regions.of[i]];
+  }
+  for (std::size_t r = 0; r < sums.size(); ++r)
+    if (pixels[r] > 0) sums[r] /= pixels[r];
+  return sums;
 }
 
 }  // namespace
@@ -97,13 +97,28 @@ std::string to_string(Quantity quantity) {
   return k_names[static_cast<std::size_t>(quantity)];
 }
 
+Regions block_regions(Resolution resolution, int block) {
+  const int columns = (resolution.width + block - 1) / block, rows = (resolution.height + block - 1) / block;
+  Regions regions{Image<std::size_t>(resolution), static_cast<std::size_t>(columns * rows)};
+  for (std::size_t i = 0; i < regions.of.size(); ++i) {
+    const Pixel pixel = resolution.pixel(i);
+    regions.of[i] = static_cast<std::size_t>(pixel.y / block * columns + pixel.x / block);
+  }
+  return regions;
+}
+
 BlockMoments block_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
                            const BlockOptions& options) {
+  return region_moments(method, scene, settings, block_regions(scene.camera().resolution(), options.block), options);
+}
+
+BlockMoments region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
+                            const Regions& regions, const BlockOptions& options) {
   BlockMoments result;
   const Resolution resolution = scene.camera().resolution();
   const auto add = [&](Quantity quantity, const std::function<Rgb(Pixel)>& value,
                        const std::function<bool(Pixel)>& counts) {
-    const std::vector<double> means = block_means(resolution, options.block, value, counts);
+    const std::vector<double> means = region_means(regions, value, counts);
     std::vector<Moments>& blocks = result.blocks[quantity];
     blocks.resize(means.size());
     for (std::size_t i = 0; i < means.size(); ++i) blocks[i].add(means[i]);

@@ -36,6 +36,16 @@ struct BlockOptions {
   int runs = 64, passes = 4, block = 8;
   std::uint64_t seed = 1;
 };
+/// A partition of an image: of each pixel, the region that it belongs to.
+struct Regions {
+  Image<std::size_t> of;
+  std::size_t count = 0;
+};
+Regions block_regions(Resolution resolution, int block);
+
+/// The same over any regions.
+BlockMoments region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
+                            const Regions& regions, const BlockOptions& options);
 BlockMoments block_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
                            const BlockOptions& options);
 

@@ -1,0 +1,118 @@
+// No energy is lost on any material of any scene: every unbiased method has path tracing's mean over all pixels that
+// show the same kind of material, part by part (DESIGN 4). Prints the ratios that docs/results/energy.md holds.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/loaders/loader.h"
+#include "support/render/method.h"
+
+namespace gradslc {
+namespace {
+
+constexpr double k_false_alarm = 0.001;  // of one scene
+constexpr int k_max_depth = 6;
+
+struct EnergyScene {
+  std::string name, file;
+  std::filesystem::path path() const {
+    const std::filesystem::path root =
+        file.starts_with("scene_") ? GRADSLC_SHARED_DIR "/scenes" : GRADSLC_SOURCE_DIR "/scenes";
+    return root / name / file;
+  }
+};
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> k_methods = {
+      {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
+      {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "reconnection"}}},
+      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
+  };
+  return k_methods;
+}
+
+/// Name of the plug-in that scatters: "roughplastic" of "bumpmap twosided roughplastic".
+std::string scattering_plugin(const std::string& kind) { return kind.substr(kind.rfind(' ') + 1); }
+
+/// Pixels by the material in their middle.
+struct MaterialClasses {
+  Regions regions;
+  std::vector<std::string> names;
+  std::vector<int> pixels;
+};
+
+MaterialClasses classify(const Scene& scene) {
+  const Resolution resolution = scene.camera().resolution();
+  MaterialClasses classes{{Image<std::size_t>(resolution), 0}, {}, {}};
+  std::map<std::string, std::size_t> indices;
+  for (std::size_t i = 0; i < resolution.pixels(); ++i) {
+    const Pixel pixel = resolution.pixel(i);
+    const Ray ray = scene.camera().generate_ray(
+        {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f}, {0.5f, 0.5f});
+    const auto hit = scene.intersect(ray);
+    const std::string name = hit ? scattering_plugin(scene.material_names()[hit->material].kind) : "environment";
+    const auto [entry, added] = indices.try_emplace(name, indices.size());
+    if (added) classes.names.push_back(name), classes.pixels.push_back(0);
+    classes.regions.of[i] = entry->second;
+    ++classes.pixels[entry->second];
+  }
+  classes.regions.count = indices.size();
+  return classes;
+}
+
+constexpr Quantity k_compared[] = {Quantity::image, Quantity::direct, Quantity::vpl_and_compensation,
+                                   Quantity::specular, Quantity::prefix};
+
+class Energy : public testing::TestWithParam<EnergyScene> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, Energy,
+                         testing::Values(EnergyScene{"cornell-box", "scene.xml"}, EnergyScene{"staircase", "scene.xml"},
+                                         EnergyScene{"bathroom", "scene.xml"}, EnergyScene{"veranda", "scene.xml"},
+                                         EnergyScene{"lamp", "scene.xml"}, EnergyScene{"cornell-box", "scene_v0.6.xml"},
+                                         EnergyScene{"staircase", "scene_v0.6.xml"},
+                                         EnergyScene{"bathroom", "scene_v0.6.xml"},
+                                         EnergyScene{"house", "scene_v0.6.xml"}, EnergyScene{"lamp", "scene_v0.6.xml"}),
+                         [](const auto& entry) {
+                           std::string name =
+                               (entry.param.file.starts_with("scene_") ? "real_" : "our_") + entry.param.name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(Energy, IsPathTracingsOnEveryMaterial) {
+  if (!std::filesystem::exists(GetParam().path()))
+    GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
+  const Scene scene(load_scene(GetParam().path().string(), {.width = 32, .height = 32}));
+  const MaterialClasses classes = classify(scene);
+  const RenderSettings settings{.max_depth = k_max_depth};
+  const BlockMoments reference =
+      region_moments({"spt", "spt", {}}, scene, settings, classes.regions, {.runs = 24, .passes = 64, .seed = 21});
+  const std::size_t tests = methods().size() * std::size(k_compared) * classes.names.size();
+  for (const Method& method : methods()) {
+    const BlockMoments moments =
+        region_moments(method, scene, settings, classes.regions, {.runs = 24, .passes = 8, .seed = 22});
+    for (const Quantity quantity : k_compared) {
+      const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
+      EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
+          << fmt::format("{}, {}, on {}: {} where spt has {}, p = {:.2g}", method.label, to_string(quantity),
+                         classes.names[c.block], c.mean_a, c.mean_b, c.p_value);
+    }
+    for (std::size_t r = 0; r < classes.names.size(); ++r) {
+      const Moments &ours = moments.blocks.at(Quantity::image)[r], &spt = reference.blocks.at(Quantity::image)[r];
+      if (spt.mean() == 0) continue;
+      const double ratio = ours.mean() / spt.mean();
+      const double error = std::hypot(ours.standard_error() / ours.mean(), spt.standard_error() / spt.mean()) * ratio;
+      fmt::print("| {} | {} | {} | {} | {:.4f} +- {:.4f} |\n", GetParam().name, classes.names[r], classes.pixels[r],
+                 method.label, ratio, error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gradslc
