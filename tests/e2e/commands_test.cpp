@@ -59,8 +59,14 @@ TEST_F(Commands, InfoSaysWhatASceneHolds) {
   EXPECT_EQ(info.at("height"), 12);
   EXPECT_EQ(info.at("meshes"), 3);
   EXPECT_EQ(info.at("triangles"), 6);
-  EXPECT_EQ(info.at("emitters"), 2);
-  EXPECT_EQ(run({"info", "scene.xml"}).exit_code, 0);
+  EXPECT_EQ(info.at("emissive_triangles"), 2);
+  EXPECT_EQ(info.at("lights"), (json{{"area", 1}}));
+  EXPECT_EQ(info.at("textures"), 0);
+  EXPECT_FALSE(info.at("materials").empty());
+  EXPECT_GT(info.at("geometry_bytes"), 0);
+  const Outcome text = run({"info", "scene.xml"});
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_NE(text.output.find("1 area; 2 emissive triangles"), std::string::npos) << text.output;
 }
 
 TEST_F(Commands, RenderWritesTheImageAndSaysWhatItCost) {

@@ -21,9 +21,10 @@ constexpr int k_max_depth = 6;
 
 struct EnergyScene {
   std::string name, file;
+  bool is_real() const { return file.starts_with("scene_"); }  ///< one of the report's
+  std::string label() const { return (is_real() ? "real " : "") + name; }
   std::filesystem::path path() const {
-    const std::filesystem::path root =
-        file.starts_with("scene_") ? GRADSLC_SHARED_DIR "/scenes" : GRADSLC_SOURCE_DIR "/scenes";
+    const std::filesystem::path root = is_real() ? GRADSLC_SHARED_DIR "/scenes" : GRADSLC_SOURCE_DIR "/scenes";
     return root / name / file;
   }
 };
@@ -85,33 +86,41 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Energy,
                            return name;
                          });
 
+/// Compares every method with spt: each part of the image, per material and per block of 16 x 16 pixels.
+void expect_energy(const std::string& label, const Scene& scene, const std::string& light,
+                   const Components& components) {
+  const MaterialClasses classes = classify(scene);
+  const Regions partitions[] = {classes.regions, block_regions(scene.camera().resolution(), 16)};
+  const RenderSettings settings{.max_depth = k_max_depth, .components = components};
+  const auto reference =
+      region_moments({"spt", "spt", {}}, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
+  const std::size_t tests = methods().size() * std::size(k_compared) * (partitions[0].count + partitions[1].count) * 2;
+  for (const Method& method : methods()) {
+    const auto moments = region_moments(method, scene, settings, partitions, {.runs = 24, .passes = 4, .seed = 22});
+    for (std::size_t k = 0; k < std::size(partitions); ++k)
+      for (const Quantity quantity : k_compared) {
+        const Comparison c = compare_blocks(moments[k].blocks.at(quantity), reference[k].blocks.at(quantity));
+        EXPECT_GT(c.p_value, sidak(k_false_alarm, tests)) << fmt::format(
+            "{}, {}, {}, {}: {} where spt has {}, p = {:.2g}", light, method.label, to_string(quantity),
+            k == 0 ? classes.names[c.block] : fmt::format("block {}", c.block), c.mean_a, c.mean_b, c.p_value);
+      }
+    for (std::size_t r = 0; r < classes.names.size(); ++r) {
+      const Moments &ours = moments[0].blocks.at(Quantity::image)[r], &spt = reference[0].blocks.at(Quantity::image)[r];
+      if (spt.mean() == 0 || ours.mean() == 0) continue;
+      const double ratio = ours.mean() / spt.mean();
+      const double error = std::hypot(ours.standard_error() / ours.mean(), spt.standard_error() / spt.mean()) * ratio;
+      fmt::print("| {} | {} | {} | {} | {} | {:.4f} +- {:.4f} |\n", label, light, classes.names[r], classes.pixels[r],
+                 method.label, ratio, error);
+    }
+  }
+}
+
 TEST_P(Energy, IsPathTracingsOnEveryMaterial) {
   if (!std::filesystem::exists(GetParam().path()))
     GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
   const Scene scene(load_scene(GetParam().path().string(), {.width = 32, .height = 32}));
-  const MaterialClasses classes = classify(scene);
-  const RenderSettings settings{.max_depth = k_max_depth};
-  const BlockMoments reference =
-      region_moments({"spt", "spt", {}}, scene, settings, classes.regions, {.runs = 24, .passes = 64, .seed = 21});
-  const std::size_t tests = methods().size() * std::size(k_compared) * classes.names.size();
-  for (const Method& method : methods()) {
-    const BlockMoments moments =
-        region_moments(method, scene, settings, classes.regions, {.runs = 24, .passes = 8, .seed = 22});
-    for (const Quantity quantity : k_compared) {
-      const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
-      EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
-          << fmt::format("{}, {}, on {}: {} where spt has {}, p = {:.2g}", method.label, to_string(quantity),
-                         classes.names[c.block], c.mean_a, c.mean_b, c.p_value);
-    }
-    for (std::size_t r = 0; r < classes.names.size(); ++r) {
-      const Moments &ours = moments.blocks.at(Quantity::image)[r], &spt = reference.blocks.at(Quantity::image)[r];
-      if (spt.mean() == 0) continue;
-      const double ratio = ours.mean() / spt.mean();
-      const double error = std::hypot(ours.standard_error() / ours.mean(), spt.standard_error() / spt.mean()) * ratio;
-      fmt::print("| {} | {} | {} | {} | {:.4f} +- {:.4f} |\n", GetParam().name, classes.names[r], classes.pixels[r],
-                 method.label, ratio, error);
-    }
-  }
+  expect_energy(GetParam().label(), scene, "all", {});
+  expect_energy(GetParam().label(), scene, "indirect", {.emission = false, .direct = false});
 }
 
 }  // namespace

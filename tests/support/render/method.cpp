@@ -109,19 +109,22 @@ Regions block_regions(Resolution resolution, int block) {
 
 BlockMoments block_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
                            const BlockOptions& options) {
-  return region_moments(method, scene, settings, block_regions(scene.camera().resolution(), options.block), options);
+  const Regions blocks = block_regions(scene.camera().resolution(), options.block);
+  return region_moments(method, scene, settings, {&blocks, 1}, options)[0];
 }
 
-BlockMoments region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
-                            const Regions& regions, const BlockOptions& options) {
-  BlockMoments result;
+std::vector<BlockMoments> region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
+                                         std::span<const Regions> partitions, const BlockOptions& options) {
+  std::vector<BlockMoments> results(partitions.size());
   const Resolution resolution = scene.camera().resolution();
   const auto add = [&](Quantity quantity, const std::function<Rgb(Pixel)>& value,
                        const std::function<bool(Pixel)>& counts) {
-    const std::vector<double> means = region_means(regions, value, counts);
-    std::vector<Moments>& blocks = result.blocks[quantity];
-    blocks.resize(means.size());
-    for (std::size_t i = 0; i < means.size(); ++i) blocks[i].add(means[i]);
+    for (std::size_t k = 0; k < partitions.size(); ++k) {
+      const std::vector<double> means = region_means(partitions[k], value, counts);
+      std::vector<Moments>& blocks = results[k].blocks[quantity];
+      blocks.resize(means.size());
+      for (std::size_t i = 0; i < means.size(); ++i) blocks[i].add(means[i]);
+    }
   };
   for (int run = 0; run < options.runs; ++run) {
     RenderSettings seeded = settings;
@@ -169,7 +172,7 @@ BlockMoments region_moments(const Method& method, const Scene& scene, const Rend
           inside({0, 1}));
     }
   }
-  return result;
+  return results;
 }
 
 Comparison compare_blocks(const std::vector<Moments>& a, const std::vector<Moments>& b) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,9 +44,9 @@ struct Regions {
 };
 Regions block_regions(Resolution resolution, int block);
 
-/// The same over any regions.
-BlockMoments region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
-                            const Regions& regions, const BlockOptions& options);
+/// The same over any regions, for each of several partitions.
+std::vector<BlockMoments> region_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
+                                         std::span<const Regions> partitions, const BlockOptions& options);
 BlockMoments block_moments(const Method& method, const Scene& scene, const RenderSettings& settings,
                            const BlockOptions& options);
 
