@@ -46,6 +46,7 @@ json as_json(const SceneInventory& s) {
 /// "2 diffuse, 1 twosided plastic"
 std::string counted(const std::map<std::string, int>& counts) {
   std::vector<std::string> texts;
+  texts.reserve(counts.size());
   for (const auto& [name, count] : counts) texts.push_back(fmt::format("{} {}", count, name));
   return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, ", "));
 }

@@ -34,7 +34,8 @@ template <class T>
 class Image {
  public:
   Image() = default;
-  explicit Image(Resolution resolution, T fill = T()) : resolution_(resolution), data_(resolution.pixels(), fill) {}
+  explicit Image(Resolution resolution, const T& fill = T())
+      : resolution_(resolution), data_(resolution.pixels(), fill) {}
 
   Resolution resolution() const { return resolution_; }
   int width() const { return resolution_.width; }

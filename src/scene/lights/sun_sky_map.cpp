@@ -78,9 +78,11 @@ void add_sun(RgbImage& map, const ClearSky& sky, float scale, double radius_scal
       const double half = half_width((y * strips + strip + 0.5) * strip_height, centre, radius);
       if (half == 0) continue;
       const double first = (sky.sun.azimuth - half) / column_width, last = (sky.sun.azimuth + half) / column_width;
-      for (double column = std::floor(first); column < last; ++column) {
-        const int wrapped = (static_cast<int>(column) % map.width() + map.width()) % map.width();
-        covered[static_cast<std::size_t>(wrapped)] += (std::min(last, column + 1) - std::max(first, column)) / strips;
+      const int begin = static_cast<int>(std::floor(first)), end = static_cast<int>(std::ceil(last));
+      for (int column = begin; column < end; ++column) {
+        const int wrapped = (column % map.width() + map.width()) % map.width();
+        covered[static_cast<std::size_t>(wrapped)] +=
+            (std::min<double>(last, column + 1) - std::max<double>(first, column)) / strips;
       }
     }
     for (int x = 0; x < map.width(); ++x)
