@@ -69,6 +69,14 @@ TEST(Unbiased, MirrorBoxIndirectLight) {
                   {.max_depth = 6, .components = {.emission = false, .direct = false}}, lightcut_methods());
 }
 
+// Light paths carry another factor at shading normals than camera paths do (Veach 1997, section 5.3).
+TEST(Unbiased, BentNormals) {
+  expect_unbiased(test_box(k_resolution, {.bent_normals = true}), {.max_depth = 6},
+                  {{"slc", "slc", {{"vpl/light_paths", 1000.0}, {"vpl/bounding", "none"}}},
+                   {"slc, bounded", "slc", {{"vpl/light_paths", 300.0}}},
+                   {"gradslc", "gradslc", {{"vpl/light_paths", 1000.0}}}});
+}
+
 /// Gloss costs samples: fewer methods, more of each.
 void expect_unbiased_on_gloss(GlossyLight light) {
   const std::vector<Method> methods = {

@@ -101,6 +101,13 @@ std::string lights_of(GlossyLight light) {
   return {};
 }
 
+/// Gives the corners of a quad normals that lean away from its middle.
+void bend_normals(TriangleMesh& mesh, Vec3 u, Vec3 v) {
+  constexpr float k_lean = 0.6f;
+  const Vec3 n = normalize(cross(u, v)), s = k_lean * normalize(u), t = k_lean * normalize(v);
+  for (const Vec3 lean : {-s - t, s - t, s + t, t - s}) mesh.normals.push_back(as_normal(normalize(n + lean)));
+}
+
 Point3 scaled(Point3 p, float scale) { return {p.x * scale, p.y * scale, p.z * scale}; }
 
 }  // namespace
@@ -167,6 +174,7 @@ Scene test_box(Resolution resolution, const TestBox& options) {
   d.area_lights = {{Rgb(10, 8, 5)}};
   const auto wall = [&](Point3 corner, Vec3 u, Vec3 v, std::uint32_t material) {
     d.meshes.push_back(quad(scaled(corner, s), s * u, s * v, material));
+    if (options.bent_normals) bend_normals(d.meshes.back(), u, v);
   };
   wall({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}, white);                           // floor
   wall({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, white);                            // ceiling

@@ -24,9 +24,11 @@ PerspectiveCamera camera_at(Resolution resolution, Point3 position, Point3 targe
 Scene closed_furnace(Rgb albedo, Resolution resolution, float scale = 1);
 
 /// A box of side 2 with coloured walls, a lamp under its ceiling and a block; with `mirror`, the block is a mirror that
-/// throws a caustic, and the back wall is a mirror, too.
+/// throws a caustic, and the back wall is a mirror, too. With `bent_normals`, the walls' shading normals lean outwards
+/// at their corners by some 40 degrees.
 struct TestBox {
   bool mirror = false;
+  bool bent_normals = false;
   float scale = 1;
   float wall_albedo = 0.7f;
 };
