@@ -16,9 +16,9 @@ HEADER = """
 A bathroom, in metres: a round mirror over a basin, a bath behind a pane of glass, a lace towel, a plant. Light comes
 through a frosted window on the right, from two globes beside the mirror and from a ceiling lamp.
 
-What it stresses: a mirror and chrome, which camera paths follow before they gather; light that the mirror throws back into
-the room; a pane that is a vertex of every path through it (thindielectric), solid glass (dielectric); surfaces cut out by
-masks; glossy tiles with a bump map; a small bright room, where connections are short.
+What it stresses: a mirror and chrome, which camera paths follow before they gather; light that the mirror throws back
+into the room; a pane that is a vertex of every path through it (thindielectric), solid glass (dielectric); surfaces cut
+out by masks; glossy tiles with a bump map; a small bright room, where connections are short.
 Made by scripts/generate-scenes. CC0.
 """
 
@@ -62,7 +62,8 @@ def _add_materials(scene, parameters):
     wall = scene.texture("wall_tiles", textures.tiles((0.72, 0.85, 0.83), (0.90, 0.90, 0.88), rows // 2, rows, 0.035,
                                                       0.14, seed=3))
     relief = scene.texture("wall_relief", textures.tile_heights(rows // 2, rows, 0.035))
-    floor = scene.texture("floor_tiles", textures.tiles((0.50, 0.50, 0.50), (0.70, 0.69, 0.67), 2, 2, 0.015, 0.22, seed=8))
+    floor = scene.texture("floor_tiles", textures.tiles((0.50, 0.50, 0.50), (0.70, 0.69, 0.67), 2, 2, 0.015, 0.22,
+                                                        seed=8))
     wood = scene.texture("walnut", textures.wood((0.55, 0.38, 0.25), (0.33, 0.21, 0.13), seed=23))
     lace = scene.texture("lace", textures.lace_opacity())
     leaf = scene.texture("leaf", textures.leaf_opacity())
@@ -70,7 +71,8 @@ def _add_materials(scene, parameters):
     scene.material("wall_tiles", two_sided(materials.bumpy(
         materials.bitmap("height", relief, raw=True),
         materials.rough_plastic(materials.bitmap("diffuse_reflectance", wall), 0.08), scale=0.004)))
-    scene.material("floor_tiles", two_sided(materials.rough_plastic(materials.bitmap("diffuse_reflectance", floor), 0.15)))
+    floor_colour = materials.bitmap("diffuse_reflectance", floor)
+    scene.material("floor_tiles", two_sided(materials.rough_plastic(floor_colour, 0.15)))
     scene.material("plaster", two_sided(materials.diffuse((0.80, 0.79, 0.76))))
     scene.material("walnut", two_sided(materials.rough_plastic(materials.bitmap("diffuse_reflectance", wood), 0.2)))
     scene.material("stone", two_sided(materials.rough_plastic((0.70, 0.68, 0.64), 0.1)))
@@ -129,8 +131,7 @@ def _add_room(scene):
             ((deep - 0.06, y0 + bar, w1 - bar), (deep - 0.01, y1 - bar, w1)),
             ((deep - 0.06, y0 + bar, middle - bar / 2), (deep - 0.01, y1 - bar, middle + bar / 2))]
     scene.mesh("window_frame", boxes(bars, bevel=0.004), "white_paint")
-    scene.mesh("door", props.door(0.85, 2.02).moved(Transform.translation(0.75, 0.001, FRONT) @ Transform.rotation("y", 180)),
-               "white_paint")
+    scene.mesh("door", props.placed(props.door(0.85, 2.02), 0.75, 0.001, FRONT, 180), "white_paint")
 
 
 def _add_lights(scene, parameters):
@@ -140,8 +141,8 @@ def _add_lights(scene, parameters):
     r = parameters.window_radiance
     scene.shape("rectangle", "window", "black", window, emission=(0.90 * r, 0.97 * r, 1.08 * r))
 
-    scene.mesh("ceiling_lamp", props.placed(lathe([(0, 0), (0.19, 0), (0.2, 0.01), (0.2, 0.055)], 48), 0, CEILING - 0.055, 0.6),
-               "brass")
+    dish = lathe([(0, 0), (0.19, 0), (0.2, 0.01), (0.2, 0.055)], 48)
+    scene.mesh("ceiling_lamp", props.placed(dish, 0, CEILING - 0.055, 0.6), "brass")
     lamp = to_world(Element("scale", x=0.18, y=0.18), Element("rotate", x=1, angle=90),
                     Element("translate", x=0.0, y=CEILING - 0.056, z=0.6))
     scene.shape("disk", "ceiling_light", "black", lamp, emission=(20.0, 18.0, 15.0))
@@ -156,12 +157,12 @@ def _add_vanity(scene):
     for k in range(doors):
         a, b = x0 + (x1 - x0) * k / doors, x0 + (x1 - x0) * (k + 1) / doors
         carcass.append(((a + 0.004, low + 0.004, front - 0.02), (b - 0.004, top - 0.004, front)))
-    carcass += [((x, 0, z), (x + 0.05, low, z + 0.05)) for x in (x0 + 0.02, x1 - 0.07) for z in (BACK + 0.02, front - 0.1)]
+    carcass += [((x, 0, z), (x + 0.05, low, z + 0.05))
+                for x in (x0 + 0.02, x1 - 0.07) for z in (BACK + 0.02, front - 0.1)]
     scene.mesh("vanity", boxes(carcass, bevel=0.003, uv_size=0.7), "walnut")
     scene.mesh("counter", box((x0 - 0.01, top, BACK), (x1 + 0.01, VANITY_TOP, front + 0.02), bevel=0.004), "stone")
-    knobs = [tube([(x0 + (x1 - x0) * k / doors + 0.05, low + 0.38, front), (x0 + (x1 - x0) * k / doors + 0.05, low + 0.38,
-                                                                            front + 0.025)], 0.011, sides=16)
-             for k in range(doors)]
+    knob_places = [(x0 + (x1 - x0) * k / doors + 0.05, low + 0.38) for k in range(doors)]
+    knobs = [tube([(x, y, front), (x, y, front + 0.025)], 0.011, sides=16) for x, y in knob_places]
     scene.mesh("knobs", merged(knobs), "brass")
 
     rim = arc((0.205, 0.135), 0.009, 0, 180, 6)
@@ -169,7 +170,8 @@ def _add_vanity(scene):
             (0.07, 0.018), (0.018, 0.014), (0, 0.014)]
     centre = Transform.translation(BASIN_X, VANITY_TOP, BACK + 0.27)
     scene.mesh("basin", lathe(bowl, 64).moved(centre), "ceramic")
-    scene.mesh("drain", lathe([(0.022, 0.0145), (0.022, 0.019), (0.018, 0.021), (0, 0.021)], 24).moved(centre), "chrome")
+    drain = lathe([(0.022, 0.0145), (0.022, 0.019), (0.018, 0.021), (0, 0.021)], 24)
+    scene.mesh("drain", drain.moved(centre), "chrome")
     scene.mesh("tap", _tap(0.24, 0.15).moved(Transform.translation(BASIN_X, VANITY_TOP, BACK + 0.045)), "chrome")
 
 
@@ -197,8 +199,8 @@ def _add_mirror(scene, parameters):
     arms = []
     for k, side in enumerate((-1, 1), start=1):
         x = BASIN_X + side * (radius + 0.14)
-        arms.append(tube([(x, MIRROR_Y + 0.1, BACK), (x, MIRROR_Y + 0.1, BACK + 0.09), (x, MIRROR_Y + 0.13, BACK + 0.1)],
-                         0.009, sides=12))
+        y = MIRROR_Y + 0.1
+        arms.append(tube([(x, y, BACK), (x, y, BACK + 0.09), (x, y + 0.03, BACK + 0.1)], 0.009, sides=12))
         arms.append(lathe([(0.012, 0), (0.035, 0.008), (0.035, 0.02), (0, 0.02)], 24).moved(
             Transform.translation(x, MIRROR_Y + 0.125, BACK + 0.1)))
         centre = Element("point", name="center", x=x, y=MIRROR_Y + 0.199, z=BACK + 0.1)
@@ -228,8 +230,8 @@ def _add_bath(scene):
              tube([(1.16, 0, BACK + 0.09), (1.16, 0.8, BACK + 0.09)], 0.012, sides=14),
              tube([(0.84, 0.81, BACK + 0.09), (1.22, 0.81, BACK + 0.09)], 0.026, sides=18),
              tube([(1.03, 0.81, BACK + 0.09), (1.03, 0.82, BACK + 0.22), (1.03, 0.8, BACK + 0.27)], 0.014, sides=14),
-             tube([(1.03, 0.83, BACK + 0.06), (1.03, 2.0, BACK + 0.06), (1.03, 2.08, BACK + 0.1), (1.03, 2.1, BACK + 0.2),
-                   (1.03, 2.1, BACK + 0.36), (1.03, 2.06, BACK + 0.38)], 0.009, sides=12)]
+             tube([(1.03, 0.83, BACK + 0.06), (1.03, 2.0, BACK + 0.06), (1.03, 2.08, BACK + 0.1),
+                   (1.03, 2.1, BACK + 0.2), (1.03, 2.1, BACK + 0.36), (1.03, 2.06, BACK + 0.38)], 0.009, sides=12)]
     head = lathe([(0.11, 0), (0.112, 0.006), (0.03, 0.02), (0.012, 0.05), (0.0, 0.05)], 40)
     underside = lathe([(0, 0), (0.11, 0)], 40)
     shower = merged([head, underside]).moved(Transform.translation(1.03, 2.01, BACK + 0.38))
@@ -240,7 +242,8 @@ def _add_screen(scene, parameters):
     x, z0, z1, top = 0.48, BACK + 0.012, -0.35, parameters.glass_height
     pane = _rectangle((x, 0.012, z0), (x, 0.012, z1), (x, top, z1), (x, top, z0), 1.0)
     scene.mesh("screen", pane, "pane")
-    rails = [((x - 0.012, 0, BACK), (x + 0.012, top, BACK + 0.02)), ((x - 0.012, 0, BACK + 0.02), (x + 0.012, 0.02, z1)),
+    rails = [((x - 0.012, 0, BACK), (x + 0.012, top, BACK + 0.02)),
+             ((x - 0.012, 0, BACK + 0.02), (x + 0.012, 0.02, z1)),
              ((x - 0.008, top - 0.004, BACK + 0.02), (x + 0.008, top + 0.008, z1)),
              ((x - 0.008, 0.02, z1 - 0.004), (x + 0.008, top - 0.004, z1 + 0.008))]
     bars = boxes(rails, bevel=0.001)
@@ -291,12 +294,13 @@ def _add_small_things(scene):
     brushes = [tube([(-0.235, top + 0.012, BACK + 0.15), (-0.205, top + 0.185, BACK + 0.175)], 0.0045, sides=8),
                tube([(-0.205, top + 0.012, BACK + 0.165), (-0.245, top + 0.18, BACK + 0.15)], 0.0045, sides=8)]
     scene.mesh("brushes", merged(brushes), "towel")
-    bottle = [(0, 0), (0.034, 0), (0.036, 0.003), (0.036, 0.11), (0.033, 0.122), (0.014, 0.132), (0.013, 0.15), (0, 0.15)]
-    scene.mesh("bottles", merged([props.placed(lathe(bottle, 32), -1.12, top, BACK + 0.14),
-                                  props.placed(lathe([(0.8 * r, 1.25 * h) for r, h in bottle], 32), -1.2, top, BACK + 0.22)]),
-               "amber")
-    scene.mesh("soap", props.placed(box((-0.045, 0, -0.03), (0.045, 0.024, 0.03), bevel=0.008), -0.3, top, BACK + 0.36, 25),
-               "ceramic")
+    wide = [(0, 0), (0.034, 0), (0.036, 0.003), (0.036, 0.11), (0.033, 0.122), (0.014, 0.132), (0.013, 0.15), (0, 0.15)]
+    slim = [(0.8 * radius, 1.25 * height) for radius, height in wide]
+    bottles = [props.placed(lathe(wide, 32), -1.12, top, BACK + 0.14),
+               props.placed(lathe(slim, 32), -1.2, top, BACK + 0.22)]
+    scene.mesh("bottles", merged(bottles), "amber")
+    soap = box((-0.045, 0, -0.03), (0.045, 0.024, 0.03), bevel=0.008)
+    scene.mesh("soap", props.placed(soap, -0.3, top, BACK + 0.36, 25), "ceramic")
     rug = box((-0.45, 0.0, -0.28), (0.45, 0.015, 0.28), bevel=0.006)
     scene.mesh("rug", props.placed(rug, -0.6, 0.0005, -0.5), "towel")
 

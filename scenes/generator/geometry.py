@@ -33,11 +33,6 @@ def normalise(a):
     return scale(a, 1 / size) if size > 0 else a
 
 
-def mix(a, b, t):
-    """The point a fraction t of the way from a to b."""
-    return tuple(x + (y - x) * t for x, y in zip(a, b))
-
-
 def on_circle(radius, angle, y=0.0):
     """The point at `angle` degrees from +x towards +z on a horizontal circle round the y axis."""
     radians = math.radians(angle)
@@ -90,6 +85,3 @@ class Transform:
     def determinant(self):
         a, b, c = (row[:3] for row in self.rows)
         return dot(a, cross(b, c))
-
-
-IDENTITY = Transform.scaling(1, 1, 1)

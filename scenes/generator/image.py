@@ -11,7 +11,7 @@ class Image:
 
 
 def picture(width, height, colour):
-    """An sRGB picture of colour(u, v), three numbers in [0, 1], at pixel centres; v grows upwards, as texture v does."""
+    """An sRGB picture of colour(u, v), three numbers in [0, 1], at pixel centres; v grows upwards."""
     return _sampled(width, height, 3, colour)
 
 

@@ -84,8 +84,3 @@ def mask(opacity, bsdf):
 def bumpy(height, bsdf, scale):
     """height: a texture; `scale` times its value is the displacement in metres."""
     return Element("bsdf", height, number("scale", scale), bsdf, type="bumpmap")
-
-
-def blended(weight, first, second):
-    """weight: a texture named weight, 0 for the first bsdf, 1 for the second."""
-    return Element("bsdf", weight, first, second, type="blendbsdf")

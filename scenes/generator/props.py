@@ -1,4 +1,4 @@
-"""Things that stand about in more than one scene. Each is built at the origin, on the floor or with its back to z = 0."""
+"""Things that stand about in more than one scene. Each is built at the origin, standing or with its back to z = 0."""
 
 import math
 import random
@@ -97,7 +97,8 @@ def leaf_card(width, size):
     for k in range(3):
         t = k / 2
         y = -0.3 * size * t * t
-        rows.append([(-width / 2, y + 0.12 * width, size * t), (0, y, size * t), (width / 2, y + 0.12 * width, size * t)])
+        edge = y + 0.12 * width
+        rows.append([(-width / 2, edge, size * t), (0, y, size * t), (width / 2, edge, size * t)])
         uvs.append([(0, t), (0.5, t), (1, t)])
     return grid([row[::-1] for row in rows], [row[::-1] for row in uvs])
 

@@ -20,7 +20,7 @@ _ZENITH = {
 
 
 def sky_radiance(direction, sun, turbidity):
-    """Linear RGB of the sky, in kilocandela per square metre. `direction` (above the horizon) and `sun` are unit vectors."""
+    """Linear RGB of the sky in kcd/m^2. `direction` (above the horizon) and `sun` are unit vectors."""
     zenith_angle = math.acos(min(1.0, max(0.01, direction[1])))
     sun_angle = math.acos(sun[1])
     gamma = math.acos(min(1.0, max(-1.0, dot(direction, sun))))
@@ -55,8 +55,8 @@ def _linear_rgb(x, y, luminance):
 def environment(sun, turbidity, ground, width=192):
     """Rows of a latitude-longitude picture of sky and ground, for Mitsuba's `envmap`.
 
-    Column u, row v (from the top) show the direction with u = atan2(x, -z) / 2 pi and v = acos(y) / pi. The sun's disk is
-    left out: a directional emitter stands for it. ground: the radiance of everything below the horizon.
+    Column u, row v (from the top) show the direction with u = atan2(x, -z) / 2 pi and v = acos(y) / pi. The sun's disk
+    is left out: a directional emitter stands for it. ground: the radiance of everything below the horizon.
     """
     height = width // 2
     rows = []

@@ -210,7 +210,8 @@ def _add_railings(scene, parameters):
     rail_y = parameters.gallery + parameters.rail
     path += [(AXIS_X, rail_y, end - 0.12), (AXIS_X, rail_y, (BACK + end) / 2), (AXIS_X, rail_y, BACK + 0.001)]
     rails = [tube(path, 0.024, sides=10, uv_size=0.7),
-             tube([(LEFT + 0.001, rail_y, AXIS_Z), (AXIS_X - NEWEL_RADIUS + 0.005, rail_y, AXIS_Z)], 0.024, uv_size=0.7)]
+             tube([(LEFT + 0.001, rail_y, AXIS_Z), (AXIS_X - NEWEL_RADIUS + 0.005, rail_y, AXIS_Z)], 0.024,
+                  uv_size=0.7)]
     scene.mesh("handrails", merged(rails), "oak")
 
     bars = []

@@ -56,7 +56,7 @@ def _grid_normals(rows):
 def lathe(profile, segments=32):
     """Turns a profile of (radius, height) points round the y axis; a profile that goes up looks outwards.
 
-    Corners of more than 40 degrees stay sharp. A profile that goes up outside and down inside gives a vessel with a wall.
+    Corners of more than 40 degrees stay sharp. A profile that goes up outside and down inside makes a vessel.
     u goes round once, v along the profile from 0 to 1.
     """
     lengths = [math.dist(p, q) for p, q in zip(profile, profile[1:])]

@@ -15,12 +15,12 @@ from .surfaces import grid, heightfield, lathe, tube
 from .xml import Element
 
 HEADER = """
-The veranda of a clapboard house, in metres, seen from its garden in the afternoon. The sky is Preetham's (turbidity 2.5), a
-picture of 192 x 96 pixels in textures/sky.hdr; the sun is a directional emitter. Both are in units of 20 kcd/m^2.
+The veranda of a clapboard house, in metres, seen from its garden in the afternoon. The sky is Preetham's, a picture of
+192 x 96 pixels in textures/sky.hdr; the sun is a directional emitter. Both are in units of 20 kcd/m^2.
 
-What it stresses: light from infinity, by far the most of it from one direction; the shade below the roof, which is lit by
-the sky, the lawn and the boards; thin geometry (balusters, clapboards, leaves cut out by masks) in the same files placed
-several times; rooms behind panes, dark beside the lawn.
+What it stresses: light from infinity, by far the most of it from one direction; the shade below the roof, which is lit
+by the sky, the lawn and the boards; thin geometry (balusters, clapboards, leaves cut out by masks); plants whose files
+are placed several times; rooms behind panes, dark beside the lawn.
 Made by scripts/generate-scenes. CC0.
 """
 
@@ -40,7 +40,7 @@ class Parameters(Checked):
     """The light and the garden; the house is fixed."""
 
     sun_elevation: float = parameter(38.0, "of the sun above the horizon, degrees", 5.0, 80.0)
-    sun_azimuth: float = parameter(40.0, "of the sun from the house's front (+z) towards the left (-x), degrees", -80.0, 80.0)
+    sun_azimuth: float = parameter(40.0, "of the sun from the front (+z) towards the left (-x), degrees", -80.0, 80.0)
     turbidity: float = parameter(2.5, "of the air: 2 very clear, 10 hazy", 2.0, 10.0)
     leaves: int = parameter(420, "leaves of a bush", 50, 3000)
     seed: int = parameter(1, "of the garden", 0, 1000000)
@@ -115,7 +115,8 @@ def _add_house(scene):
     shell = [((x0, 0.3, -depth), (x0 + thick, WALL_TOP, -0.02)), ((x1 - thick, 0.3, -depth), (x1, WALL_TOP, -0.02)),
              ((x0, 0.3, -depth - thick), (x1, WALL_TOP, -depth))]
     back = -depth - thick
-    gable = [(WALL_TOP, -0.02), (WALL_TOP + 0.75, -0.02), (RIDGE + 0.85, -2.2), (WALL_TOP + 0.75, back), (WALL_TOP, back)]
+    eaves = WALL_TOP + 0.75
+    gable = [(WALL_TOP, -0.02), (eaves, -0.02), (RIDGE + 0.85, -2.2), (eaves, back), (WALL_TOP, back)]
     walls = boxes(shell)
     for x, outline in ((x0, gable), (x1, gable[::-1])):
         walls.add_polygon([(x, y, z) for y, z in outline], [(z, y) for y, z in outline])
@@ -162,8 +163,8 @@ def _add_openings(scene):
                           (WINDOW_WIDTH / 2 + 0.14, -WINDOW_HEIGHT / 2 - 0.1, 0.09), bevel=0.004).moved(place))
         panes.add(props.canvas(WINDOW_WIDTH - 0.08, WINDOW_HEIGHT - 0.08, -0.048), place)
         for side in (-1, 1):
-            curtains.add(_curtain(0.34, WINDOW_HEIGHT + 0.1), Transform.translation(side * (WINDOW_WIDTH / 2 - 0.16), 0, -0.2)
-                         @ place)
+            inwards = Transform.translation(side * (WINDOW_WIDTH / 2 - 0.16), 0, -0.2)
+            curtains.add(_curtain(0.34, WINDOW_HEIGHT + 0.1), inwards @ place)
     x, y = DOOR_X, FLOOR + DOOR_HEIGHT / 2
     jamb = [((x - DOOR_WIDTH / 2 - 0.1, FLOOR, 0), (x - DOOR_WIDTH / 2 + 0.005, FLOOR + DOOR_HEIGHT + 0.1, 0.045)),
             ((x + DOOR_WIDTH / 2 - 0.005, FLOOR, 0), (x + DOOR_WIDTH / 2 + 0.1, FLOOR + DOOR_HEIGHT + 0.1, 0.045)),
@@ -173,10 +174,11 @@ def _add_openings(scene):
     scene.mesh("window_frames", merged(frames), "trim")
     scene.mesh("panes", panes, "pane")
     scene.mesh("curtains", curtains, "curtain")
-    scene.mesh("door", props.door(DOOR_WIDTH - 0.02, DOOR_HEIGHT - 0.02).moved(Transform.translation(x, FLOOR + 0.005, -0.06)),
-               "door_paint")
+    leaf = props.door(DOOR_WIDTH - 0.02, DOOR_HEIGHT - 0.02)
+    scene.mesh("door", props.placed(leaf, x, FLOOR + 0.005, -0.06), "door_paint")
     knob = lathe([(0.012, 0), (0.012, 0.03), (0.022, 0.036), (0.028, 0.05), (0.022, 0.064), (0, 0.07)], 24)
-    scene.mesh("knob", knob.moved(Transform.translation(x + 0.4, FLOOR + 0.98, -0.021) @ Transform.rotation("x", 90)), "brass")
+    place = Transform.translation(x + 0.4, FLOOR + 0.98, -0.021) @ Transform.rotation("x", 90)
+    scene.mesh("knob", knob.moved(place), "brass")
 
 
 def _curtain(width, height):
@@ -192,13 +194,13 @@ def _add_deck(scene):
     width, gap = 0.14, 0.006
     count = round(DEPTH / width)
     width = DEPTH / count
-    planks = [box((x0, FLOOR - 0.035, 0.036 + k * width), (x1, FLOOR, 0.036 + (k + 1) * width - gap), bevel=0.003, uv_size=1.1,
-                  uv_offset=(0.31 * k, 0.17 * k)) for k in range(count)]
+    planks = [box((x0, FLOOR - 0.035, 0.036 + k * width), (x1, FLOOR, 0.036 + (k + 1) * width - gap), bevel=0.003,
+                  uv_size=1.1, uv_offset=(0.31 * k, 0.17 * k)) for k in range(count)]
     step_rise = FLOOR / 4
     for k in range(3):
         top, z = FLOOR - (k + 1) * step_rise, DEPTH + 0.036 + k * 0.29
-        planks.append(box((STAIRS_X - STAIRS_WIDTH / 2, top - 0.04, z), (STAIRS_X + STAIRS_WIDTH / 2, top, z + 0.31), bevel=0.004,
-                          uv_size=1.1, uv_offset=(0.4 * k, 0.3 * k)))
+        planks.append(box((STAIRS_X - STAIRS_WIDTH / 2, top - 0.04, z), (STAIRS_X + STAIRS_WIDTH / 2, top, z + 0.31),
+                          bevel=0.004, uv_size=1.1, uv_offset=(0.4 * k, 0.3 * k)))
     scene.mesh("deck", merged(planks), "boards")
     edge = DEPTH + 0.03
     below = [((x0 + 0.01, FLOOR - 0.24, edge - 0.05), (x1 - 0.01, FLOOR - 0.036, edge)),
@@ -303,7 +305,8 @@ def _add_furniture(scene):
     """A bench below the left window, a small table with a vase, pots beside the stairs."""
     bench = Mesh()
     for k in range(4):
-        bench.add(box((-0.7, 0.40, -0.2 + 0.1 * k), (0.7, 0.43, -0.11 + 0.1 * k), bevel=0.004, uv_size=0.9, uv_offset=(0.2 * k, 0.1 * k)))
+        bench.add(box((-0.7, 0.40, -0.2 + 0.1 * k), (0.7, 0.43, -0.11 + 0.1 * k), bevel=0.004, uv_size=0.9,
+                      uv_offset=(0.2 * k, 0.1 * k)))
     for k in range(3):
         y = 0.55 + 0.11 * k
         bench.add(box((-0.7, y, -0.24), (0.7, y + 0.09, -0.215), bevel=0.004, uv_size=0.9, uv_offset=(0.3 * k, 0.5)))
@@ -337,12 +340,13 @@ def _add_garden(scene, parameters):
     for k in range(9):
         x, z = STAIRS_X - 0.1 * k - 0.012 * k * k, DEPTH + 1.25 + 0.62 * k
         outline = [on_circle(0.24 + 0.05 * random_.random(), angle) for angle in range(0, 360, 36)]
-        stones.append(prism([(1.35 * px + x, pz + z) for px, _, pz in outline], hills(x, z) - 0.04, hills(x, z) + 0.025))
+        ground = hills(x, z)
+        stones.append(prism([(1.35 * px + x, pz + z) for px, _, pz in outline], ground - 0.04, ground + 0.025))
     scene.mesh("path", merged(stones), "stone")
 
     bush = _foliage(random_, parameters.leaves, 0.55, 0.5, 0.13)
-    spots = [(-3.2, 3.0, 0.95), (-2.2, 3.05, 0.7), (1.1, 3.05, 0.8), (2.1, 3.0, 1.05), (3.2, 3.05, 0.85), (4.4, 2.4, 1.2),
-             (-4.6, 1.6, 1.25), (-4.8, -0.5, 1.5), (4.9, 0.4, 1.6)]
+    spots = [(-3.2, 3.0, 0.95), (-2.2, 3.05, 0.7), (1.1, 3.05, 0.8), (2.1, 3.0, 1.05), (3.2, 3.05, 0.85),
+             (4.4, 2.4, 1.2), (-4.6, 1.6, 1.25), (-4.8, -0.5, 1.5), (4.9, 0.4, 1.6)]
     places = [[Element("scale", value=size), Element("rotate", y=1, angle=67 * k),
                Element("translate", x=x, y=hills(x, z) - 0.02, z=z)] for k, (x, z, size) in enumerate(spots)]
     scene.mesh("bush", bush, "leaf", places)
@@ -353,9 +357,10 @@ def _add_garden(scene, parameters):
                     tube([(0.02, 1.9, 0.02), (0.7, 2.9, 0.2), (1.0, 3.8, 0.2)], [0.1, 0.07, 0.03], sides=8),
                     tube([(-0.02, 2.2, 0.0), (-0.6, 3.1, -0.3), (-0.8, 4.0, -0.4)], [0.1, 0.07, 0.03], sides=8)])
     crown = _foliage(random_, 4 * parameters.leaves, 1.9, 1.5, 0.26).moved(Transform.translation(0, 2.7, 0))
-    trees = [[Element("rotate", y=1, angle=80 * k), Element("scale", value=size), Element("translate", x=x, y=hills(x, z), z=z)]
-             for k, (x, z, size) in enumerate(((-8.5, -6.0, 1.5), (-13.5, -12.0, 2.0), (8.5, -7.0, 1.6), (9.0, 1.0, 1.2),
-                                              (-19.0, -6.0, 1.8), (15.0, -13.0, 2.2), (-10.0, -22.0, 2.3)))]
+    spots = ((-8.5, -6.0, 1.5), (-13.5, -12.0, 2.0), (8.5, -7.0, 1.6), (9.0, 1.0, 1.2), (-19.0, -6.0, 1.8),
+             (15.0, -13.0, 2.2), (-10.0, -22.0, 2.3))
+    trees = [[Element("rotate", y=1, angle=80 * k), Element("scale", value=size),
+              Element("translate", x=x, y=hills(x, z), z=z)] for k, (x, z, size) in enumerate(spots)]
     scene.mesh("trunk", trunk, "bark", trees)
     scene.mesh("crown", crown, "leaf", trees)
 

@@ -1,4 +1,4 @@
-"""scripts/generate-scenes: the committed scenes are what it writes, its parameters work, and what it writes is sound."""
+"""scripts/generate-scenes: the committed scenes are what it writes, and sound; its parameters work."""
 
 import pathlib
 import subprocess
@@ -90,7 +90,7 @@ class GeneratedScenes(unittest.TestCase):
 
 
 class Shapes(unittest.TestCase):
-    """A closed mesh encloses its volume by the divergence theorem: that fails where a face is missing or turned round."""
+    """A closed mesh encloses its volume by the divergence theorem: not where a face is missing or turned round."""
 
     @staticmethod
     def volume(mesh):
