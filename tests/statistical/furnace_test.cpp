@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "scene/loaders/loader.h"
 #include "support/render/method.h"
 #include "support/render/scenes.h"
 
@@ -56,6 +57,28 @@ TEST(ClosedFurnace, AllLight) { expect_furnace({}, 6); }
 TEST(ClosedFurnace, IndirectLight) { expect_furnace({.emission = false, .direct = false}, 6); }
 TEST(ClosedFurnace, DirectLight) { expect_furnace({.emission = false, .indirect = false}, 6); }
 TEST(ClosedFurnace, ShallowestIndirectLight) { expect_furnace({}, 3); }
+
+// A floor under an environment of radiance 1: albedo exactly, whatever share of the emitters' power the environment has
+// (a lamp that shines away from the floor takes three quarters of it).
+TEST(OpenFurnace, TheEnvironmentIsWeightedByItsShareOfPower) {
+  constexpr float k_albedo = 0.5f;
+  const std::string text = R"(<scene version="3.0.0">
+    <sensor type="perspective"><float name="fov" value="20"/>
+      <transform name="to_world"><lookat origin="0, 5, 0" target="0, 0, 0" up="0, 0, 1"/></transform></sensor>
+    <shape type="rectangle"><transform name="to_world"><scale value="3"/><rotate x="1" angle="-90"/></transform>
+      <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
+    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="-1"/></transform>
+      <emitter type="area"><rgb name="radiance" value="40"/></emitter></shape>
+    <emitter type="constant"><rgb name="radiance" value="1"/></emitter></scene>)";
+  const Scene scene(load_scene_text(text, "open_furnace.xml", {.width = 16, .height = 16}));
+  for (const Method& method : {Method{"spt", "spt", {}}, Method{"slc", "slc", {{"vpl/light_paths", 50.0}}}}) {
+    const auto moments =
+        block_moments(method, scene, {.max_depth = 3}, {.runs = 50, .passes = 16, .block = 16, .seed = 12});
+    const Moments& image = moments.blocks.at(Quantity::image)[0];
+    EXPECT_GT(image.p_value(double{k_albedo}), sidak(0.001, 2)) << method.label << " " << image.mean();
+    EXPECT_LT(image.standard_error(), 0.01 * double{k_albedo}) << method.label << ": too noisy to tell";
+  }
+}
 
 TEST(ClosedFurnace, ClampingLosesEnergy) {  // a control: bounding without compensation must be seen
   const Scene scene = closed_furnace(Rgb(0.5f), {16, 16});

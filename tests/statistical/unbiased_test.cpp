@@ -77,6 +77,13 @@ TEST(Unbiased, BentNormals) {
                    {"gradslc", "gradslc", {{"vpl/light_paths", 1000.0}}}});
 }
 
+// All light is refracted once on its way out: eta^2 in one transport and none in the other, VPLs on the glass itself.
+TEST(Unbiased, LampInRoughGlass) {
+  expect_unbiased(test_box(k_resolution, {.glass_lamp = true}), {.max_depth = 5},
+                  {{"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+                   {"gradslc", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}}});
+}
+
 /// Gloss costs samples: fewer methods, more of each.
 void expect_unbiased_on_gloss(GlossyLight light) {
   const std::vector<Method> methods = {

@@ -185,6 +185,10 @@ Scene test_box(Resolution resolution, const TestBox& options) {
       outward_box(scaled({-0.6f, -1, 0.1f}, s), scaled({0, 0.1f, 0.6f}, s), options.mirror ? mirror : white));
   d.meshes.push_back(quad(scaled({-0.3f, 0.98f, -0.3f}, s), s * Vec3{0.6f, 0, 0}, s * Vec3{0, 0, 0.6f}, black));
   d.meshes.back().area_light = 0;
+  if (options.glass_lamp) {
+    d.meshes.push_back(outward_box(scaled({-0.5f, 0.5f, -0.5f}, s), scaled({0.5f, 0.99f, 0.5f}, s), 5));
+    d.materials.push_back(make_rough_dielectric(MicrofacetType::ggx, 0.4f, 1.5f));
+  }
   d.camera = camera_at(resolution, scaled({0, 0, -3.6f}, s), scaled({0, 0, 0}, s), 42);
   return Scene(std::move(d));
 }

@@ -29,6 +29,7 @@ Scene closed_furnace(Rgb albedo, Resolution resolution, float scale = 1);
 struct TestBox {
   bool mirror = false;
   bool bent_normals = false;
+  bool glass_lamp = false;  ///< the lamp stands in a box of rough glass
   float scale = 1;
   float wall_albedo = 0.7f;
 };
