@@ -29,12 +29,29 @@ struct EnergyScene {
   }
 };
 
+/// Lobes sharper than that are followed by paths. At the default of 0.1, descent meets rough metals' peaks so rarely
+/// that the scatter of 24 runs does not show it: a t-test would raise false alarms (glossy boxes are tested at 0.1).
+constexpr double k_connectable_roughness = 0.35;
+
 const std::vector<Method>& methods() {
   static const std::vector<Method> k_methods = {
-      {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
-      {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
-      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "reconnection"}}},
-      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
+      {"vpl",
+       "vpl",
+       {{"vpl/light_paths", 300.0},
+        {"vpl/connectable_roughness", k_connectable_roughness},
+        {"selection", "power"},
+        {"samples", 20.0}}},
+      {"slc", "slc", {{"vpl/light_paths", 1000.0}, {"vpl/connectable_roughness", k_connectable_roughness}}},
+      {"gradslc reconnection",
+       "gradslc",
+       {{"vpl/light_paths", 1000.0},
+        {"vpl/connectable_roughness", k_connectable_roughness},
+        {"shift", "reconnection"}}},
+      {"gradslc random replay",
+       "gradslc",
+       {{"vpl/light_paths", 1000.0},
+        {"vpl/connectable_roughness", k_connectable_roughness},
+        {"shift", "random_replay"}}},
   };
   return k_methods;
 }
@@ -92,8 +109,9 @@ void expect_energy(const std::string& label, const Scene& scene, const std::stri
   const MaterialClasses classes = classify(scene);
   const Regions partitions[] = {classes.regions, block_regions(scene.camera().resolution(), 16)};
   const RenderSettings settings{.max_depth = k_max_depth, .components = components};
+  const Method path_tracing{"spt", "spt", {{"connectable_roughness", k_connectable_roughness}}};
   const auto reference =
-      region_moments({"spt", "spt", {}}, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
+      region_moments(path_tracing, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
   const std::size_t tests = methods().size() * std::size(k_compared) * (partitions[0].count + partitions[1].count) * 2;
   for (const Method& method : methods()) {
     const auto moments = region_moments(method, scene, settings, partitions, {.runs = 24, .passes = 4, .seed = 22});
