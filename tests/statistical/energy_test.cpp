@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Energy,
                            return name;
                          });
 
-/// Compares every method with spt: each part of the image, per material and per block of 16 x 16 pixels.
+/// Compares every method with spt: each part of the image per material, and the image per block of 16 x 16 pixels.
 void expect_energy(const std::string& label, const Scene& scene, const std::string& light,
                    const Components& components) {
   const MaterialClasses classes = classify(scene);
@@ -112,11 +112,13 @@ void expect_energy(const std::string& label, const Scene& scene, const std::stri
   const Method path_tracing{"spt", "spt", {{"connectable_roughness", k_connectable_roughness}}};
   const auto reference =
       region_moments(path_tracing, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
-  const std::size_t tests = methods().size() * std::size(k_compared) * (partitions[0].count + partitions[1].count) * 2;
+  const std::size_t tests = methods().size() * (std::size(k_compared) * partitions[0].count + partitions[1].count) * 2;
   for (const Method& method : methods()) {
     const auto moments = region_moments(method, scene, settings, partitions, {.runs = 24, .passes = 4, .seed = 22});
     for (std::size_t k = 0; k < std::size(partitions); ++k)
       for (const Quantity quantity : k_compared) {
+        // Rare parts of a single block are not normal after 24 runs: there the image is judged.
+        if (k == 1 && quantity != Quantity::image) continue;
         const Comparison c = compare_blocks(moments[k].blocks.at(quantity), reference[k].blocks.at(quantity));
         EXPECT_GT(c.p_value, sidak(k_false_alarm, tests)) << fmt::format(
             "{}, {}, {}, {}: {} where spt has {}, p = {:.2g}", light, method.label, to_string(quantity),
