@@ -33,6 +33,8 @@ constexpr float length_squared(Vec3 a) { return dot(a, a); }
 inline float length(Vec3 a) { return std::sqrt(length_squared(a)); }
 /// `a` must not be zero.
 inline Vec3 normalize(Vec3 a) { return a / length(a); }
+/// The mirror image of `v` at a plane of unit normal `n`, on the same side.
+constexpr Vec3 mirrored(Vec3 v, Vec3 n) { return 2 * dot(v, n) * n - v; }
 constexpr float max_component(Vec3 a) { return std::max(a.x, std::max(a.y, a.z)); }
 inline Vec3 abs(Vec3 a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
 

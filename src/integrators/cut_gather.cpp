@@ -9,20 +9,19 @@ namespace gradslc {
 std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receivers, const SampleStream& random) {
   chosen_.clear();
   ++cost_.selections;
-  const std::uint64_t before = cut_.node_evaluations;
   find_cut(tree_, receivers, bound_, cut_size_, cut_);
-  cost_.node_evaluations += (cut_.node_evaluations - before) * receivers.size();
+  cost_.node_evaluations += cut_.evaluated.size() * receivers.size();
 
   // One double with 64 random bits, rotated by the golden ratio from node to node: stratified across the cut, uniform
   // for each node.
   constexpr double k_below_one = 1 - 0x1p-53;
   const double start = random.get1_double(Use::descent, 0) + random.get1_double(Use::descent, 1) * 0x1p-32;
   double rotation = 0;
-  for (const LightCut::Entry& entry : cut_.entries) {
+  for (const CutEntry& entry : cut_.entries) {
     const double u = start + rotation;
     rotation += 1 / std::numbers::phi;
-    const auto sample =
-        descend(tree_, entry.node, receivers, bound_, std::min(u - std::floor(u), k_below_one), cost_.node_evaluations);
+    const auto sample = descend(tree_, cut_, entry, receivers, bound_, std::min(u - std::floor(u), k_below_one),
+                                cost_.node_evaluations);
     if (sample) chosen_.push_back({sample->vpl, static_cast<float>(1 / sample->probability)});
   }
   return chosen_;

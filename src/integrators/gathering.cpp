@@ -47,7 +47,8 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
       connection_strength(k_pi * max_channel(f_x), 1, sample->direction.z, dot(wi, y.point.geometric_normal),
                           distance_squared(x.point.position, y.point.position)),
       gather.compensate ? gather.bound : k_infinity};
-  const bool compensates = compensation.factor * y.bsdf.max_connectable_pi_f(y.wo, context.lobes) > compensation.bound;
+  const bool compensates =
+      compensation.factor * y.bsdf.connectable_value_bound(y.wo, context.lobes).max() > compensation.bound;
   if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
   Ray next;
   if (scatter(context, y, &compensation, throughput, next, origin, radiance))

@@ -7,19 +7,24 @@
 
 namespace gradslc {
 
-/// A set of nodes whose VPLs together are all that can light the receivers, each VPL in one node.
-struct LightCut {
-  struct Entry {
-    NodeIndex node;
-    float bound;
-  };
-  std::vector<Entry> entries;
-  std::uint64_t node_evaluations = 0;  ///< calls of cluster_bound, summed over the cut's uses
+/// A cluster of a cut: some children of a node that has been evaluated. A cut is refined by halves, as if the tree were
+/// binary; only a single child needs its own node's children evaluated.
+struct CutEntry {
+  NodeIndex node;
+  LaneMask lanes;           ///< at least one, without gaps among the node's children
+  std::uint32_t evaluated;  ///< index into LightCut::evaluated
+  float bound;              ///< sum of the lanes' bounds, > 0
 };
 
-/// Refines the cut from the root: the node with the largest bound is replaced by its children until there are
-/// `cut_size` nodes (>= 1) or only leaves. Nodes of bound 0 are left out. Bounds only, never sampled values (DESIGN 5).
-/// Reuses `cut`'s memory.
+/// Clusters whose VPLs together are all that can light the receivers, each VPL in one of them.
+struct LightCut {
+  std::vector<CutEntry> entries;
+  std::vector<ChildWeights> evaluated;  ///< weights of the nodes that entries are parts of
+};
+
+/// Refines the cut from the root: the entry with the largest bound is replaced by its halves until there are
+/// `cut_size` entries (>= 1) or only VPLs. Entries of bound 0 are left out. Bounds only, never sampled values
+/// (DESIGN 5). Reuses `cut`'s memory.
 void find_cut(const LightTree& tree, std::span<const Receiver> receivers, float bound, int cut_size, LightCut& cut);
 
 }  // namespace gradslc

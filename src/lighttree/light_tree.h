@@ -1,43 +1,53 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/bounds.h"
-#include "vpl/vpl.h"
+#include "lighttree/light_cluster.h"
 
 namespace gradslc {
 
 using NodeIndex = std::uint32_t;
 
-/// A cluster of VPLs.
-struct LightNode {
-  Bounds3 box;
-  float flux = 0;         ///< sum of bounds of pi f_c(y) flux, luminance
-  float capped_flux = 0;  ///< sum of the same over max pi f_c(y): times b / pi^2, a bound of bounded connections
-  /// Unit. Towards a direction at angle a to the axis, the VPLs' cosines are at most cos(max(0, a - h)), h the cone's
-  /// half angle: it holds the geometric normals, and more where shading normals differ or light leaves on both sides.
-  Vec3 cone_axis{0, 0, 1};
-  float cone_cos = 1;   ///< cosine of its half angle, in [-1, 1]
-  NodeIndex left = 0;   ///< inner node: its children; leaf: left is the VPL's index in the set
-  NodeIndex right = 0;  ///< 0 at a leaf (the root is nobody's child)
-  bool is_leaf() const { return right == 0; }
+/// Up to eight clusters side by side, as SIMD kernels read them (structure of arrays). 448 bytes.
+struct alignas(64) LightNode {
+  static constexpr int k_width = 8;
+  using Lanes = float[k_width];
+  alignas(32) Lanes lower[3] = {}, upper[3] = {};          ///< boxes
+  alignas(32) Lanes flux = {}, capped_flux = {};           ///< as in LightCluster; 0 in lanes without a child
+  alignas(32) Lanes axis[3] = {}, cosine = {}, sine = {};  ///< cones of normals
+  std::uint32_t child[k_width] = {};  ///< k_leaf | index of a VPL, or a node; k_none: no child in this lane
+
+  static constexpr std::uint32_t k_leaf = 0x80000000u, k_none = 0xffffffffu;
+  bool has_child(int lane) const { return child[lane] != k_none; }
+  bool is_leaf(int lane) const { return (child[lane] & k_leaf) != 0; }
+  std::uint32_t vpl(int lane) const { return child[lane] & ~k_leaf; }
 };
 
-/// A binary tree over a set of VPLs, in tree order. Node 0 is the root; no nodes without VPLs.
+/// The glossy light of a node's eight clusters.
+struct alignas(64) GlossyLanes {
+  alignas(32) LightNode::Lanes peak = {}, tail = {}, alpha2 = {};
+  alignas(32) LightNode::Lanes axis[3] = {}, cosine = {}, sine = {};
+};
+
+/// A tree of clusters over a set of VPLs, eight children a node. Node 0 is the root; every node has a child, and every
+/// VPL is one leaf.
 struct LightTree {
+  static constexpr std::size_t k_most_vpls = 0x7fffffff;
   std::vector<LightNode> nodes;
-  VplSet set;
+  std::vector<GlossyLanes> gloss;  ///< of each node; empty where no VPL has a microfacet lobe
+  VplSet set;                      ///< in tree order
   bool empty() const { return nodes.empty(); }
 };
 
-/// A leaf for one VPL.
-LightNode make_leaf(const VplSet& set, std::uint32_t vpl_index);
-/// An inner node with the bounds of both children.
-LightNode merge_nodes(const LightNode& a, const LightNode& b, NodeIndex left, NodeIndex right);
+/// Writes a cluster to a lane of a node, and of its gloss unless null.
+void set_lane(LightNode& node, GlossyLanes* gloss, int lane, const LightCluster& cluster, std::uint32_t child);
+/// Marks the lanes from `lane` on as without a child.
+void clear_lanes(LightNode& node, int lane);
+/// What set_lane() wrote.
+LightCluster cluster_of_lane(const LightTree& tree, NodeIndex node, int lane);
 
 struct BuilderEntry {
   const char* name;

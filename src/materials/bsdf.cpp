@@ -106,18 +106,25 @@ ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) 
     if (!lobes.is_connectable(roughness(entry))) continue;
     const ReflectionBound bound =
         unless_delta(entry, ReflectionBound(), [&](const auto& lobe) { return lobe.reflection_bound(known); });
-    const float weight = max_channel(entry.weight);
-    sum += {weight * bound.cosine, weight * bound.constant};
+    sum += bound.scaled(max_channel(entry.weight));
   }
   return sum;
 }
 
-float Bsdf::max_connectable_pi_f(Vec3 known, const LobeSelection& lobes) const {
-  float sum = 0;
-  for (const Entry& entry : entries_)
-    if (lobes.is_connectable(roughness(entry)))
-      sum +=
-          max_channel(entry.weight) * unless_delta(entry, 0.0f, [&](const auto& lobe) { return lobe.max_pi_f(known); });
+ValueBound Bsdf::connectable_value_bound(Vec3 known, const LobeSelection& lobes) const {
+  ValueBound sum;
+  for (const Entry& entry : entries_) {
+    if (!lobes.is_connectable(roughness(entry))) continue;
+    const auto bound = unless_delta(entry, ValueBound(), [&](const auto& lobe) {
+      if constexpr (requires { lobe.gloss_bound(known); })
+        return ValueBound{0, lobe.gloss_bound(known)};
+      else
+        return ValueBound{lobe.max_pi_f(known), {}};
+    });
+    const float weight = max_channel(entry.weight);
+    sum.broad += weight * bound.broad;
+    sum.gloss += bound.gloss.scaled(weight);
+  }
   return sum;
 }
 

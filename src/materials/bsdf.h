@@ -28,7 +28,8 @@ namespace gradslc {
 /// and, unless k_delta,
 ///   eval(wo, wi), pdf_solid_angle(known, w)  as in Bsdf,
 ///   reflection_bound(known)      of pi f |cos_w|,
-///   max_pi_f(known)              an upper bound of pi f over the other direction, largest channel, finite.
+///   max_pi_f(known)              an upper bound of pi f over the other direction, largest channel, finite,
+///   gloss_bound(known)           where it has a peak: the same, by direction.
 using Lobe = std::variant<Lambert, OrenNayar, SmoothCoatedDiffuse, RoughCoatedDiffuse, SmoothConductor, SmoothCoat,
                           ThinPaneReflection, StraightTransmission, SmoothDielectric, RoughConductor, RoughCoat,
                           RoughDielectric>;
@@ -62,8 +63,8 @@ class Bsdf {
   float energy(Vec3 known, const LobeSelection& lobes) const;
   /// Of the connectable lobes.
   ReflectionBound connectable_bound(Vec3 known, const LobeSelection& lobes) const;
-  /// An upper bound of pi f of the connectable lobes over the other direction, largest channel.
-  float max_connectable_pi_f(Vec3 known, const LobeSelection& lobes) const;
+  /// Of the connectable lobes; its max() bounds pi f over the other direction, largest channel.
+  ValueBound connectable_value_bound(Vec3 known, const LobeSelection& lobes) const;
   /// Whether any of the selected lobes exists here, wherever light comes from.
   bool has(const LobeSelection& lobes) const;
   /// Whether any of the selected lobes scatters to the other side.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/constants.h"
@@ -37,14 +38,43 @@ struct BsdfSample {
   bool delta = false;         ///< cannot be connected to, has no density
 };
 
-/// An upper bound over all directions w, for one known direction: pi f |cos_w| <= cosine |cos_w| + constant, of the
-/// largest channel.
-struct ReflectionBound {
-  float cosine = 0, constant = 0;
-  ReflectionBound& operator+=(const ReflectionBound& o) {
-    cosine += o.cosine, constant += o.constant;
+/// How a microfacet lobe falls off around the mirror image of the known direction, relative to its facets' peak, for
+/// s2 = sin^2(g/2), g the angle to that image, and alpha2 in (0, 1]. The half vector is inclined by g/2 or more (the
+/// reflection at a plane inclined by t moves an image by 2 t at most), and GGX's d(t) / d(0) is 1 / (1 + sin^2(t)
+/// (1/alpha^2 - 1))^2.
+template <class Float>
+Float gloss_falloff(Float s2, Float alpha2) {
+  const Float root = alpha2 + s2 * (1 - alpha2);
+  return alpha2 * alpha2 / (root * root);
+}
+
+/// A bound min(peak, tail * gloss_falloff()) that knows where a lobe points.
+struct GlossBound {
+  float peak = 0, tail = 0, alpha2 = 0;  ///< peak 0: nothing
+  GlossBound& operator+=(const GlossBound& o) {
+    peak += o.peak, tail += o.tail, alpha2 = std::max(alpha2, o.alpha2);
     return *this;
   }
+  GlossBound scaled(float s) const { return {peak * s, tail * s, alpha2}; }
+};
+
+/// An upper bound over all directions w, for one known direction, of the largest channel:
+///   pi f |cos_w| <= cosine |cos_w| + constant + gloss.
+struct ReflectionBound {
+  float cosine = 0, constant = 0;
+  GlossBound gloss;
+  ReflectionBound& operator+=(const ReflectionBound& o) {
+    cosine += o.cosine, constant += o.constant, gloss += o.gloss;
+    return *this;
+  }
+  ReflectionBound scaled(float s) const { return {cosine * s, constant * s, gloss.scaled(s)}; }
+};
+
+/// The same of the value alone: pi f <= broad + gloss.
+struct ValueBound {
+  float broad = 0;
+  GlossBound gloss;
+  float max() const { return broad + gloss.peak; }
 };
 
 }  // namespace gradslc

@@ -116,6 +116,19 @@ float Microfacet::max_d(float theta) const {
   return exponent > 80 ? 0 : std::exp(-exponent) / (area * cos2 * cos2);
 }
 
+// Beckmann's exp(-t/alpha^2) (1 + t)^2, t = tan^2, is at most (1 + t)^2 / (1 + t/(2 alpha^2))^2, since (1 + x/2)^2 <=
+// exp(x): GGX's shape with 2 alpha^2 for alpha^2. Where that exceeds 1 it grows towards grazing facets, up to
+// (2 alpha^2)^2 times.
+float Microfacet::falloff_alpha2() const {
+  const float wide = std::max(alpha_u, alpha_v);
+  return std::min(1.0f, (type == MicrofacetType::ggx ? 1 : 2) * wide * wide);
+}
+
+float Microfacet::falloff_peak() const {
+  const float wide = std::max(alpha_u, alpha_v), wide2 = (type == MicrofacetType::ggx ? 1 : 2) * wide * wide;
+  return std::max(1.0f, wide2 * wide2) / (k_pi * alpha_u * alpha_v);
+}
+
 float Microfacet::max_g1_over_cos(float cos_a, float cos_b) const {
   // 2 over a function that is concave or rising in the cosine: its least value is at one end. Beckmann's masking is
   // bounded by c (1 + erf(c/s)) + s exp(-(c/s)^2)/sqrt(pi) >= c + sqrt((2 c^2 + s^2)/pi).

@@ -33,6 +33,9 @@ struct Microfacet {
 
   /// Upper bound of d() for all normals that are inclined by `theta` in [0, pi/2] or more.
   float max_d(float theta) const;
+  /// d(m) <= falloff_peak() gloss_falloff(sin^2(inclination of m), falloff_alpha2()).
+  float falloff_alpha2() const;
+  float falloff_peak() const;
   /// Upper bound of g1_over_cos() for all directions of inclinations between both, given by their cosines.
   float max_g1_over_cos(float cos_a, float cos_b) const;
 };

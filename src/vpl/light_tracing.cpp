@@ -25,11 +25,13 @@ void deposit(const ShadedPoint& y, Vec3 wi, Rgb flux, int vertex, const LobeSele
     vpl.flux *= *albedo;
     vpl.max_pi_f = max_channel(*albedo);
   } else {
-    vpl.max_pi_f = y.bsdf.max_connectable_pi_f(y.wo, lobes);
+    const ValueBound bound = y.bsdf.connectable_value_bound(y.wo, lobes);
+    vpl.max_pi_f = bound.max();
     vpl.surface = static_cast<std::uint32_t>(set.surfaces.size());
     set.surfaces.push_back({.material = y.point.material,
                             .uv = y.point.uv,
                             .tangent = OctahedralNormal(y.frame.s),
+                            .bound = bound,
                             .behind = dot(wi, y.point.shading_normal) < 0,
                             .transmits = y.bsdf.transmits(lobes.only_connectable())});
   }

@@ -8,6 +8,7 @@
 #include "core/octahedral.h"
 #include "core/rgb.h"
 #include "core/vec.h"
+#include "materials/lobes.h"
 
 namespace gradslc {
 
@@ -20,7 +21,7 @@ struct Vpl {
   /// The particle's flux; where f_c(y) is Lambert, times the albedo pi f_c(y). The factor |wi.ns| / |wi.ng| of the
   /// shading normal is included (Veach 1997, section 5.3), and so is 1 / light_paths.
   Rgb flux;
-  float max_pi_f = 0;                 ///< Lambert: largest channel of pi f_c(y); otherwise an upper bound of it; > 0
+  float max_pi_f = 0;                 ///< Lambert: largest channel of pi f_c(y); otherwise its bound's max(); > 0
   OctahedralNormal geometric_normal;  ///< on the side of shading_normal
   OctahedralNormal shading_normal;    ///< Lambert: on the side that reflects
   OctahedralNormal incoming;          ///< wi: towards the vertex before it
@@ -38,11 +39,12 @@ struct Vpl {
 };
 static_assert(sizeof(Vpl) == 48);
 
-/// What evaluating f_c(y) needs where it is not Lambert. 20 bytes.
+/// What evaluating and bounding f_c(y) needs where it is not Lambert. 36 bytes.
 struct VplSurface {
   std::uint32_t material = 0;
   Vec2 uv;
   OctahedralNormal tangent;  ///< s of the frame whose n is the VPL's shading_normal
+  ValueBound bound;          ///< of pi f_c(y)
   bool behind = false;       ///< the path came from behind the surface's own shading normal
   bool transmits = false;    ///< f_c(y) scatters to both sides
 };

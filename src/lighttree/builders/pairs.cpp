@@ -1,7 +1,9 @@
 #include "lighttree/builders/pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/radix_sort.h"
@@ -49,6 +51,18 @@ std::vector<Vpl> in_morton_order(const std::vector<Vpl>& vpls) {
   return sorted;
 }
 
+/// Children are `first_child` and what follows it.
+void fill_node(LightTree& tree, NodeIndex index, std::span<const LightCluster> children, std::uint32_t first_child) {
+  LightNode& node = tree.nodes[index];
+  int lane = 0;
+  for (const LightCluster& child : children) {
+    set_lane(node, tree.gloss.empty() ? nullptr : &tree.gloss[index], lane, child,
+             first_child + static_cast<std::uint32_t>(lane));
+    ++lane;
+  }
+  clear_lanes(node, lane);
+}
+
 }  // namespace
 
 LightTree build_pairs(VplSet set) {
@@ -57,34 +71,36 @@ LightTree build_pairs(VplSet set) {
   if (tree.set.vpls.empty()) return tree;
   tree.set.vpls = in_morton_order(tree.set.vpls);
 
-  // Levels from the root down: sizes n, ceil(n/2), ..., 1 from the leaves up, the root first in memory. A node without
-  // a sibling is kept once, at its lowest level, and referred to from above.
-  const std::size_t leaves = tree.set.vpls.size();
-  const std::size_t total = 2 * leaves - 1;
+  // Eight neighbours make a node, level by level: pairs of pairs of pairs. The root is first in memory, each level
+  // after the one above it.
+  constexpr std::size_t k_width = LightNode::k_width;
+  std::vector<std::size_t> level_sizes;  // from the leaves up
+  for (std::size_t size = tree.set.vpls.size(); level_sizes.empty() || size > 1; level_sizes.push_back(size))
+    size = (size + k_width - 1) / k_width;
+  const std::size_t total = std::accumulate(level_sizes.begin(), level_sizes.end(), std::size_t{0});
   tree.nodes.resize(total);
-  std::size_t level_end = total;  // nodes of the level being made fill [level_end - size, level_end)
-  std::vector<NodeIndex> level(leaves);
-  parallel_for(leaves, k_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      level[i] = static_cast<NodeIndex>(total - leaves + i);
-      tree.nodes[level[i]] = make_leaf(tree.set, static_cast<std::uint32_t>(i));
-    }
-  });
-  level_end -= leaves;
-  while (level.size() > 1) {
-    const std::size_t pairs = level.size() / 2;
-    std::vector<NodeIndex> above((level.size() + 1) / 2);
-    const std::size_t first = level_end - pairs;
-    parallel_for(pairs, k_grain, [&](std::size_t begin, std::size_t end) {
+  if (!tree.set.surfaces.empty()) tree.gloss.resize(total);
+  std::vector<LightCluster> below;
+  std::size_t first = total, first_below = 0;
+  for (const std::size_t size : level_sizes) {
+    first -= size;
+    const bool leaves = below.empty();
+    const std::size_t children = leaves ? tree.set.vpls.size() : below.size();
+    std::vector<LightCluster> level(size);
+    parallel_for(size, k_grain, [&](std::size_t begin, std::size_t end) {
+      std::array<LightCluster, k_width> clusters;
       for (std::size_t i = begin; i < end; ++i) {
-        const NodeIndex left = level[2 * i], right = level[2 * i + 1];
-        above[i] = static_cast<NodeIndex>(first + i);
-        tree.nodes[above[i]] = merge_nodes(tree.nodes[left], tree.nodes[right], left, right);
+        const std::size_t first_child = i * k_width, count = std::min(k_width, children - first_child);
+        for (std::size_t k = 0; k < count; ++k)
+          clusters[k] = leaves ? make_cluster(tree.set, tree.set.vpls[first_child + k]) : below[first_child + k];
+        const auto reference = static_cast<std::uint32_t>(first_child + (leaves ? 0 : first_below));
+        fill_node(tree, static_cast<NodeIndex>(first + i), std::span(clusters).first(count),
+                  leaves ? reference | LightNode::k_leaf : reference);
+        level[i] = merge_clusters(std::span(clusters).first(count));
       }
     });
-    if (level.size() % 2 == 1) above.back() = level.back();
-    level_end = first;
-    level = std::move(above);
+    below = std::move(level);
+    first_below = first;
   }
   return tree;
 }

@@ -4,8 +4,8 @@
 
 namespace gradslc {
 
-/// VPLs in Morton order of position, neighbours paired level by level (an odd one moves up alone): the report's
-/// builder. Linear memory, depth ceil(log2 n).
+/// VPLs in Morton order of position, neighbours paired level by level, three levels to a node: the report's builder.
+/// Linear memory, depth ceil(log8 n).
 LightTree build_pairs(VplSet set);
 
 }  // namespace gradslc

@@ -47,8 +47,15 @@ struct MicrofacetReflection {
     if (known.z <= 0) return {};
     const float theta = inclination(known);
     const float f = fresnel.max(std::cos((theta + k_pi / 2) / 2));  // h halves the angle between known and w
-    const float peak = k_pi / 4 * microfacet.max_d(0) * microfacet.g1_over_cos(known);
-    return {.cosine = 0, .constant = max_channel(reflectance) * f * peak * k_rounding};
+    const float peak = max_channel(reflectance) * f * facets(known);
+    return {.cosine = 0, .constant = 0, .gloss = {peak, peak, microfacet.falloff_alpha2()}};
+  }
+  /// Off the peak the other direction may graze, where masking over cosine is large: the tail's factor.
+  GlossBound gloss_bound(Vec3 known) const {
+    if (known.z <= 0) return {};
+    const float f = fresnel.max(std::cos((inclination(known) + k_pi / 2) / 2));
+    const float tail = max_channel(reflectance) * f * facets(known) * microfacet.max_g1_over_cos(0, 1);
+    return {max_pi_f(known), tail, microfacet.falloff_alpha2()};
   }
   /// The normal half-way between directions of inclinations a and b is inclined by |a - b|/2 or more, so that facets
   /// are rarer where the other direction grazes: a bound for each ring of inclinations above known's.
@@ -69,6 +76,10 @@ struct MicrofacetReflection {
 
  private:
   static constexpr float k_rounding = 1.0005f;  // of eval() and of these bounds, where facets are nearly smooth
+  /// What all bounds by direction have in common: pi/4 times the facets' peak and the known direction's masking.
+  float facets(Vec3 known) const {
+    return k_pi / 4 * microfacet.falloff_peak() * microfacet.g1_over_cos(known) * k_rounding;
+  }
   static float inclination(Vec3 w) { return std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z); }
 };
 

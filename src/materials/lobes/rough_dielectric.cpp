@@ -114,7 +114,7 @@ float RoughDielectric::refraction_bound(Vec3 known, bool by_cosine) const {
 ReflectionBound RoughDielectric::reflection_bound(Vec3 known) const {
   if (known.z == 0) return {};
   const ReflectionBound reflected = reflecting_side(known).reflection_bound(outwards(known));
-  return {.cosine = 0, .constant = std::max(reflected.constant, refraction_bound(known, true))};
+  return {.cosine = 0, .constant = std::max(reflected.gloss.peak, refraction_bound(known, true))};
 }
 
 float RoughDielectric::max_pi_f(Vec3 known) const {

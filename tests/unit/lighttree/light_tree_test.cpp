@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/radix_sort.h"
@@ -68,11 +69,13 @@ VplSet random_vpls(TestRandom& random, std::size_t count, float spread = 1, bool
       vpl.max_pi_f = 0.01f + 0.99f * random.get1();
       vpl.flux *= vpl.max_pi_f;
     } else {
-      vpl.max_pi_f = y.bsdf.max_connectable_pi_f(y.wo, LobeSelection());
+      const ValueBound bound = y.bsdf.connectable_value_bound(y.wo, LobeSelection());
+      vpl.max_pi_f = bound.max();
       vpl.surface = static_cast<std::uint32_t>(set.surfaces.size());
       set.surfaces.push_back({.material = material,
                               .uv = {},
                               .tangent = OctahedralNormal(y.frame.s),
+                              .bound = bound,
                               .behind = y.wo.z < 0,
                               .transmits = y.bsdf.transmits(LobeSelection().only_connectable())});
     }
@@ -90,25 +93,35 @@ Rgb unshadowed(const ShadedPoint& x, const LightTree& tree, std::size_t vpl, flo
   return unshadowed_contribution({x, LobeSelection()}, {materials(), tree.set}, tree.set.vpls[vpl], bound);
 }
 
-/// Calls visit(node) for every node below `start`.
-void for_each_node(const LightTree& tree, NodeIndex start, const std::function<void(NodeIndex)>& visit) {
-  std::vector<NodeIndex> stack{start};
+/// One child of a node.
+struct Child {
+  NodeIndex node;
+  int lane;
+};
+
+/// Calls visit(child) for every child at or below some lanes of a node.
+void for_each_child(const LightTree& tree, NodeIndex start, LaneMask lanes, const std::function<void(Child)>& visit) {
+  std::vector<std::pair<NodeIndex, LaneMask>> stack{{start, lanes}};
   while (!stack.empty()) {
-    const NodeIndex node = stack.back();
+    const auto [node, mask] = stack.back();
     stack.pop_back();
-    visit(node);
-    if (tree.nodes[node].is_leaf()) continue;
-    stack.push_back(tree.nodes[node].left);
-    stack.push_back(tree.nodes[node].right);
+    for (int lane = 0; lane < LightNode::k_width; ++lane) {
+      if ((mask >> lane & 1) == 0 || !tree.nodes[node].has_child(lane)) continue;
+      visit({node, lane});
+      if (!tree.nodes[node].is_leaf(lane)) stack.emplace_back(tree.nodes[node].child[lane], k_all_lanes);
+    }
   }
 }
 
-std::vector<std::uint32_t> vpls_below(const LightTree& tree, NodeIndex start) {
+std::vector<std::uint32_t> vpls_below(const LightTree& tree, NodeIndex start, LaneMask lanes = k_all_lanes) {
   std::vector<std::uint32_t> vpls;
-  for_each_node(tree, start, [&](NodeIndex node) {
-    if (tree.nodes[node].is_leaf()) vpls.push_back(tree.nodes[node].left);
+  for_each_child(tree, start, lanes, [&](Child child) {
+    if (tree.nodes[child.node].is_leaf(child.lane)) vpls.push_back(tree.nodes[child.node].vpl(child.lane));
   });
   return vpls;
+}
+std::vector<std::uint32_t> vpls_below(const LightTree& tree, Child child) {
+  return vpls_below(tree, child.node, LaneMask{1} << child.lane);
 }
 
 TEST(RadixSort, EqualsAStableSort) {
@@ -153,12 +166,16 @@ TEST_P(Builders, HoldEveryVplOnceAndBoundIt) {
     for (const Vpl& vpl : set.vpls) flux_in += static_cast<double>(luminance(vpl.flux));
     for (const Vpl& vpl : tree.set.vpls) flux_out += static_cast<double>(luminance(vpl.flux));
     EXPECT_NEAR(flux_in, flux_out, 1e-6 * flux_in);
-    for_each_node(tree, 0, [&](NodeIndex node) {
-      for (const std::uint32_t i : vpls_below(tree, node)) {
-        EXPECT_TRUE(tree.nodes[node].box.contains(tree.set.vpls[i].position));
-        EXPECT_GE(dot(tree.nodes[node].cone_axis, tree.set.vpls[i].geometric_normal.decode()),
-                  tree.nodes[node].cone_cos - 1e-6f);
+    for_each_child(tree, 0, k_all_lanes, [&](Child child) {
+      const LightCluster cluster = cluster_of_lane(tree, child.node, child.lane);
+      double flux = 0;
+      for (const std::uint32_t i : vpls_below(tree, child)) {
+        EXPECT_TRUE(cluster.box.contains(tree.set.vpls[i].position));
+        EXPECT_GE(dot(cluster.normals.axis, tree.set.vpls[i].geometric_normal.decode()),
+                  cluster.normals.cosine - 1e-6f);
+        flux += static_cast<double>(luminance(tree.set.vpls[i].flux));
       }
+      EXPECT_NEAR(flux, static_cast<double>(cluster.flux), 1e-5 * flux);
     });
   }
 }
@@ -173,7 +190,7 @@ TEST_P(Builders, DegenerateInputs) {
   const LightTree black = build(same);
   const ShadedPoint x = random_gather_point(random, 1);
   const Receiver r = make_receiver({x, LobeSelection()});
-  EXPECT_EQ(cluster_bound(black.nodes[0], {&r, 1}, 1), 0);
+  EXPECT_EQ(cluster_bound(cluster_of_lane(black, 0, 0), r, 1), 0);
   LightCut cut;
   find_cut(black, {&r, 1}, 1, 10, cut);
   EXPECT_TRUE(cut.entries.empty());
@@ -197,7 +214,7 @@ TEST_P(Builders, SameBitsForAnyNumberOfThreads) {
 TEST_P(Builders, BoundsHoldForRandomNodesAndReceivers) {
   TestRandom random(5);
   std::size_t cases = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 1500; ++round) {
     const float spread = std::exp(4 * random.get1() - 2);
     const bool glossy = round % 2 == 0;
     const LightTree tree = build(random_vpls(random, 1 + random.below(100), spread, glossy));
@@ -208,15 +225,25 @@ TEST_P(Builders, BoundsHoldForRandomNodesAndReceivers) {
       for (std::size_t i = 0; i < tree.set.vpls.size(); ++i)
         contribution[i] = static_cast<double>(luminance(unshadowed(x, tree, i, bound)));
       const Receiver r = make_receiver({x, LobeSelection()});
-      for_each_node(tree, 0, [&](NodeIndex node) {
+      ChildWeights weights;
+      NodeIndex evaluated = LightNode::k_none;
+      for_each_child(tree, 0, k_all_lanes, [&](Child child) {
         ++cases;
         double sum = 0;
-        for (const std::uint32_t i : vpls_below(tree, node)) sum += contribution[i];
-        const double node_bound = static_cast<double>(cluster_bound(tree.nodes[node], {&r, 1}, bound)) *
-                                  static_cast<double>(k_inv_pi * k_inv_pi);
-        ASSERT_GE(node_bound * (1 + 1e-5), sum);
-        if (std::isfinite(bound)) {
-          ASSERT_TRUE(std::isfinite(node_bound));
+        for (const std::uint32_t i : vpls_below(tree, child)) sum += contribution[i];
+        const float scalar = cluster_bound(cluster_of_lane(tree, child.node, child.lane), r, bound);
+        if (std::exchange(evaluated, child.node) != child.node)
+          evaluate_children(tree, child.node, {&r, 1}, bound, weights);
+        const float simd = weights.bound[child.lane];
+        if (std::isfinite(scalar)) {
+          ASSERT_NEAR(simd, scalar, 1e-2f * scalar + 1e-6f * cluster_of_lane(tree, child.node, child.lane).flux);
+        }
+        for (const float b : {scalar, simd}) {
+          const double node_bound = static_cast<double>(b) * static_cast<double>(k_inv_pi * k_inv_pi);
+          ASSERT_GE(node_bound * (1 + 1e-5), sum);
+          if (std::isfinite(bound)) {
+            ASSERT_TRUE(std::isfinite(node_bound));
+          }
         }
       });
     }
@@ -241,14 +268,16 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
     // The probability of every leaf by walking all branches with the one probability function.
     std::vector<double> probability(tree.set.vpls.size(), 0);
     const std::function<void(NodeIndex, double)> walk = [&](NodeIndex node, double p) {
-      if (tree.nodes[node].is_leaf()) {
-        probability[tree.nodes[node].left] = p;
-        return;
+      ChildWeights weights;
+      evaluate_children(tree, node, receivers, bound, weights);
+      const ChildProbabilities probabilities = child_probabilities(weights, k_all_lanes);
+      for (int lane = 0; lane < LightNode::k_width; ++lane) {
+        if (!tree.nodes[node].has_child(lane)) continue;
+        if (tree.nodes[node].is_leaf(lane))
+          probability[tree.nodes[node].vpl(lane)] = p * probabilities.lane[lane];
+        else
+          walk(tree.nodes[node].child[lane], p * probabilities.lane[lane]);
       }
-      const auto left = left_probability(tree, node, receivers, bound);
-      if (!left) return;
-      walk(tree.nodes[node].left, p * *left);
-      walk(tree.nodes[node].right, p * (1 - *left));
     };
     walk(0, 1);
     double lost = 1;
@@ -262,8 +291,11 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
 
     std::vector<double> observed(tree.set.vpls.size() + 1, 0), expected(tree.set.vpls.size() + 1, 0);
     std::uint64_t evaluations = 0;
-    for (int d = 0; d < k_draws; ++d) {
-      const auto sample = descend(tree, 0, receivers, bound, random.get1_double(), evaluations);
+    LightCut cut;
+    find_cut(tree, receivers, bound, 1, cut);
+    for (int d = 0; d < k_draws && cut.entries.empty(); ++d) ++observed.back();
+    for (int d = 0; d < k_draws && !cut.entries.empty(); ++d) {
+      const auto sample = descend(tree, cut, cut.entries[0], receivers, bound, random.get1_double(), evaluations);
       ++observed[sample ? sample->vpl : tree.set.vpls.size()];
       if (sample) {
         ASSERT_NEAR(sample->probability, probability[sample->vpl], 1e-9 * sample->probability);
@@ -288,8 +320,8 @@ TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
     find_cut(tree, {&r, 1}, 1, size, cut);
     EXPECT_LE(cut.entries.size(), static_cast<std::size_t>(size));
     std::vector<int> covered(tree.set.vpls.size(), 0);
-    for (const LightCut::Entry& entry : cut.entries)
-      for (const std::uint32_t i : vpls_below(tree, entry.node)) ++covered[i];
+    for (const CutEntry& entry : cut.entries)
+      for (const std::uint32_t i : vpls_below(tree, entry.node, entry.lanes)) ++covered[i];
     for (std::size_t i = 0; i < covered.size(); ++i) {
       EXPECT_LE(covered[i], 1);
       if (!is_black(unshadowed(x, tree, i, 1))) {
@@ -297,7 +329,7 @@ TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
       }
     }
     if (size < 1000) continue;
-    for (const LightCut::Entry& entry : cut.entries) EXPECT_TRUE(tree.nodes[entry.node].is_leaf());
+    for (const CutEntry& entry : cut.entries) EXPECT_EQ(vpls_below(tree, entry.node, entry.lanes).size(), 1u);
   }
 }
 
@@ -317,13 +349,12 @@ TEST_P(Builders, ProbabilitiesDoNotDependOnTheUnitOfLength) {
   std::vector<Receiver> far = receivers;
   for (Receiver& r : far) r.position = {k_scale * r.position.x, k_scale * r.position.y, k_scale * r.position.z};
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (tree.nodes[node].is_leaf()) continue;
-    const auto small_p = left_probability(tree, node, receivers, 2);
-    const auto large_p = left_probability(large, node, far, 2 / (k_scale * k_scale));
-    ASSERT_EQ(small_p.has_value(), large_p.has_value());
-    if (small_p) {
-      EXPECT_NEAR(*small_p, *large_p, 1e-5);
-    }
+    ChildWeights small_weights, large_weights;
+    evaluate_children(tree, node, receivers, 2, small_weights);
+    evaluate_children(large, node, far, 2 / (k_scale * k_scale), large_weights);
+    const auto small_p = child_probabilities(small_weights, k_all_lanes);
+    const auto large_p = child_probabilities(large_weights, k_all_lanes);
+    for (int lane = 0; lane < LightNode::k_width; ++lane) EXPECT_NEAR(small_p.lane[lane], large_p.lane[lane], 1e-5);
   }
 }
 

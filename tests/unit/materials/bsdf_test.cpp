@@ -216,6 +216,13 @@ TEST_P(EveryBsdf, LobeSelectionSplitsItExactly) {
   }
 }
 
+/// The bound for a direction; sin^2(g/2) from the chord, exact for small angles.
+float towards(const GlossBound& bound, Vec3 image, Vec3 w) {
+  if (bound.peak == 0) return 0;
+  const float s2 = length_squared(image - w) / 4;
+  return std::min(bound.peak, bound.tail * gloss_falloff(s2, bound.alpha2));
+}
+
 TEST_P(EveryBsdf, IsBoundedByItsBounds) {
   const Material& material = *GetParam().material;
   TestRandom random(7);
@@ -228,15 +235,20 @@ TEST_P(EveryBsdf, IsBoundedByItsBounds) {
     for (int i = 0; i < 1000; ++i) {
       const auto [bsdf, known] = seen_from(GetParam(), any_direction(random));
       const ReflectionBound bound = bsdf.connectable_bound(known, lobes);
-      const float largest = bsdf.max_connectable_pi_f(known, lobes);
-      ASSERT_TRUE(std::isfinite(bound.cosine) && std::isfinite(bound.constant) && std::isfinite(largest));
+      const ValueBound value_bound = bsdf.connectable_value_bound(known, lobes);
+      const float largest = value_bound.max();
+      ASSERT_TRUE(std::isfinite(bound.cosine) && std::isfinite(bound.constant) && std::isfinite(bound.gloss.peak));
+      ASSERT_TRUE(std::isfinite(largest) && std::isfinite(value_bound.gloss.tail));
+      const Vec3 image = mirrored(known, {0, 0, 1});
       for (int j = 0; j < 50; ++j) {
         const Vec3 w = likely_direction(bsdf, known, connectable, random);
         const float cos_w = std::abs(w.z);
         for (const Rgb f : {bsdf.eval(known, w, connectable), bsdf.eval(w, known, connectable)}) {
           const float pi_f = k_pi * max_channel(f);
           ASSERT_LE(pi_f, largest * 1.00001f) << known.z << " " << w.z;
-          ASSERT_LE(pi_f * cos_w, (bound.cosine * cos_w + bound.constant) * 1.00001f) << known.z << " " << w.z;
+          ASSERT_LE(pi_f, (value_bound.broad + towards(value_bound.gloss, image, w)) * 1.00001f) << known.z << w.z;
+          ASSERT_LE(pi_f * cos_w, (bound.cosine * cos_w + bound.constant + towards(bound.gloss, image, w)) * 1.00001f)
+              << known.z << " " << w.z;
           ASSERT_LE(pi_f, everywhere * 1.00001f) << known.z << " " << w.z;
         }
       }

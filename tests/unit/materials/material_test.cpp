@@ -193,7 +193,7 @@ TEST(RoughMaterials, BoundAllThatTheirTexturesSay) {
       EXPECT_EQ(bsdf.has(lobes.only_other()), alpha < 0.1f);
       const Vec3 grazing = normalize(Vec3{1, 0, 1e-4f}), opposite{-grazing.x, 0, grazing.z};
       EXPECT_LE(k_pi * bsdf.eval(grazing, opposite, lobes.only_connectable()).r, everywhere);
-      EXPECT_LE(bsdf.max_connectable_pi_f(grazing, lobes), everywhere * 1.001f);
+      EXPECT_LE(bsdf.connectable_value_bound(grazing, lobes).max(), everywhere * 1.001f);
     }
   }
 }
