@@ -4,20 +4,24 @@
 #include "integrators/cut_gather.h"
 #include "integrators/record.h"
 #include "integrators/registry.h"
+#include "integrators/tile_gather.h"
 #include "integrators/vpl_source.h"
+#include "shifts/block_partition.h"
 
 namespace gradslc {
 namespace {
 
-enum class Gather : std::uint8_t { descent };
+enum class Gather : std::uint8_t { descent, tile };
 
-/// Stochastic lightcuts (Yuksel 2019) over virtual point lights, with bounded and compensated connections.
+/// Stochastic lightcuts over virtual point lights, with bounded and compensated connections: as published (Yuksel
+/// 2019), or with candidates shared by the pixels of a tile (DESIGN 5).
 class StochasticLightcuts final : public Integrator {
  public:
   void describe(ParameterVisitor& v) override {
-    v.choice("gather", gather_kind_, {"descent"},
-             "how VPLs are selected: per pixel by descent from a cut (as published)");
-    v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "nodes of the cut, and so shadow rays of a gather");
+    v.choice("gather", gather_kind_, {"descent", "tile"},
+             "how VPLs are selected: per pixel by descent from a cut (as published), or among a tile's candidates");
+    v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "descent: nodes of the cut, and so shadow rays of a gather");
+    v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
     source_.describe(v);
   }
 
@@ -30,18 +34,10 @@ class StochasticLightcuts final : public Integrator {
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
     const LightTree& tree = source_.vpls_of(slot);
-    const Resolution resolution = film.resolution();
-    FilmHalf& half = film.half(slot.half);
-    std::mutex cost_mutex;
-    parallel_for(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
-      CutSelector selector(tree, cut_size_, gather_.bound);
-      std::uint64_t rays = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        record(half, resolution.pixel(i), sample(slot, tree, selector, i, rays));
-      }
-      const std::lock_guard lock(cost_mutex);
-      rays_ += rays, cost_ += selector.cost();
-    });
+    if (gather_kind_ == Gather::descent)
+      render_pixels(slot, tree, film);
+    else
+      render_tiles(slot, tree, film);
     if (slot.closes_set) film.close_set(slot.half);
   }
 
@@ -49,34 +45,98 @@ class StochasticLightcuts final : public Integrator {
   IntegratorStatistics statistics() const override {
     IntegratorStatistics statistics{.rays = rays_ + source_.rays(), .counters = {}};
     source_.append_counters(statistics.counters);
-    statistics.counters.push_back({"node_evaluations", static_cast<double>(cost_.node_evaluations)});
-    statistics.counters.push_back({"selections", static_cast<double>(cost_.selections)});
+    const auto count = [&](const char* name, std::uint64_t value) {
+      statistics.counters.push_back({name, static_cast<double>(value)});
+    };
+    count("node_evaluations", cut_cost_.node_evaluations + tile_cost_.nodes);
+    if (gather_kind_ == Gather::descent) {
+      count("selections", cut_cost_.selections);
+    } else {
+      count("candidates", tile_cost_.candidates);
+      count("candidate_evaluations", tile_cost_.evaluations);
+    }
     return statistics;
   }
 
  private:
-  PartValues sample(const PassSlot& slot, const LightTree& tree, CutSelector& selector, std::size_t index,
-                    std::uint64_t& rays) const {
-    auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
-    const CameraPrefix prefix = trace_camera_prefix(context, position);
-    PartValues radiance = prefix.radiance;
-    if (prefix.gather) {
-      gather_without_vpls(context, prefix, gather_, radiance);
-      const Receiver receiver = make_receiver({*prefix.gather, context.lobes});
-      const auto chosen = selector.select({&receiver, 1}, context.random);
-      radiance[Part::vpl] += prefix.throughput * gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound);
-    }
-    rays += context.rays;
-    return radiance;
+  void render_pixels(const PassSlot& slot, const LightTree& tree, Film& film) {
+    const Resolution resolution = film.resolution();
+    FilmHalf& half = film.half(slot.half);
+    std::mutex cost_mutex;
+    parallel_for(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
+      CutSelector selector(tree, cut_size_, gather_.bound);
+      std::uint64_t rays = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
+        const CameraPrefix prefix = trace_camera_prefix(context, position);
+        PartValues radiance = prefix.radiance;
+        if (prefix.gather) {
+          gather_without_vpls(context, prefix, gather_, radiance);
+          const Receiver receiver = make_receiver({*prefix.gather, context.lobes});
+          const auto chosen = selector.select({&receiver, 1}, context.random);
+          radiance[Part::vpl] +=
+              prefix.throughput * gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound);
+        }
+        record(half, resolution.pixel(i), radiance);
+        rays += context.rays;
+      }
+      const std::lock_guard lock(cost_mutex);
+      rays_ += rays, cut_cost_ += selector.cost();
+    });
+  }
+
+  /// Tiles lie at an offset drawn anew for each pass, so that their borders move.
+  void render_tiles(const PassSlot& slot, const LightTree& tree, Film& film) {
+    const std::uint64_t seed = derive_seed(settings_.seed, SeedPurpose::tiles, slot.half);
+    const auto tile_stream = [&](std::uint64_t tile) {
+      return SampleStream(settings_.sampler, seed, tile, slot.sample);
+    };
+    constexpr std::uint64_t k_image = ~std::uint64_t{0};
+    const BlockPartition partition(film.resolution(), {tile_.size, tile_.size},
+                                   tile_stream(k_image).get2(Use::group_offset));
+    FilmHalf& half = film.half(slot.half);
+    std::mutex cost_mutex;
+    parallel_for(partition.size(), 1, [&](std::size_t tile, std::size_t) {
+      TileGatherer gatherer(*scene_, tree, tile_, gather_.bound);
+      const auto [first, size] = partition.block(tile);
+      std::vector<CameraPrefix> prefixes;
+      std::vector<PathContext> contexts;
+      std::vector<Receiver> receivers;
+      for (std::size_t i = 0; i < size.pixels(); ++i) {
+        const std::size_t index = film.resolution().index(first + size.pixel(i));
+        auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+        prefixes.push_back(trace_camera_prefix(context, position));
+        contexts.push_back(context);
+        if (prefixes.back().gather) receivers.push_back(make_receiver({*prefixes.back().gather, context.lobes}));
+      }
+      gatherer.begin_tile(receivers, tile_stream(tile).get1_double(Use::tile_comb));
+      std::uint64_t rays = 0;
+      for (std::size_t i = 0; i < size.pixels(); ++i) {
+        PathContext& context = contexts[i];
+        const CameraPrefix& prefix = prefixes[i];
+        PartValues radiance = prefix.radiance;
+        if (prefix.gather) {
+          gather_without_vpls(context, prefix, gather_, radiance);
+          radiance[Part::vpl] += prefix.throughput * gatherer.gather(context, *prefix.gather,
+                                                                     context.random.get1_double(Use::candidate_choice));
+        }
+        record(half, first + size.pixel(i), radiance);
+        rays += context.rays;
+      }
+      const std::lock_guard lock(cost_mutex);
+      rays_ += rays, tile_cost_ += gatherer.cost();
+    });
   }
 
   Gather gather_kind_ = Gather::descent;
   int cut_size_ = 10;
+  TileParameters tile_;
   VplSource source_{VplSource::Structure::tree};
   const Scene* scene_ = nullptr;
   RenderSettings settings_;
   GatherSettings gather_;
-  SelectionCost cost_;
+  SelectionCost cut_cost_;
+  TileCost tile_cost_;
   std::uint64_t rays_ = 0;
 };
 

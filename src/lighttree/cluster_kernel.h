@@ -31,8 +31,10 @@ inline Float8 lane_cone_cosine(const Float8 (&to)[3], Float8 distance2, Float8 r
   return result;
 }
 
-inline Float8 lane_bounded_gloss(Float8 peak, Float8 tail, Float8 alpha2, Float8 cosine) {
-  const Float8 s2 = stdx::max(0.5f - 0.5f * stdx::min(cosine + k_cosine_slack, Float8(1)), Float8(0));
+/// A GlossBound towards a direction whose cosine to the mirrored one is `cosine` at most.
+template <class Vector>
+Vector bounded_gloss(Vector peak, Vector tail, Vector alpha2, Vector cosine) {
+  const Vector s2 = stdx::max(0.5f - 0.5f * stdx::min(cosine + k_cosine_slack, Vector(1)), Vector(0));
   return stdx::min(peak, tail * gloss_falloff(s2, alpha2));
 }
 
@@ -71,7 +73,7 @@ inline LaneTerms lane_terms(const LightNode& node, const GlossyLanes* gloss, con
     const Float8 from_receiver[3] = {-to_receiver[0], -to_receiver[1], -to_receiver[2]};
     const Float8 axis[3] = {r.mirrored.x, r.mirrored.y, r.mirrored.z};
     const Float8 cosine = lane_cone_cosine(from_receiver, distance2, radius2, axis, 1, 0);
-    Float8 peak = lane_bounded_gloss(r.bound.gloss.peak, r.bound.gloss.tail, r.bound.gloss.alpha2, cosine);
+    Float8 peak = bounded_gloss<Float8>(r.bound.gloss.peak, r.bound.gloss.tail, r.bound.gloss.alpha2, cosine);
     stdx::where(!lit, peak) = 0;
     reflected += peak;
   }
@@ -81,8 +83,8 @@ inline LaneTerms lane_terms(const LightNode& node, const GlossyLanes* gloss, con
     const Float8 axis[3] = {load_aligned(gloss->axis[0]), load_aligned(gloss->axis[1]), load_aligned(gloss->axis[2])};
     const Float8 cosine =
         lane_cone_cosine(to_receiver, distance2, radius2, axis, load_aligned(gloss->cosine), load_aligned(gloss->sine));
-    flux +=
-        lane_bounded_gloss(load_aligned(gloss->peak), load_aligned(gloss->tail), load_aligned(gloss->alpha2), cosine);
+    flux += bounded_gloss<Float8>(load_aligned(gloss->peak), load_aligned(gloss->tail), load_aligned(gloss->alpha2),
+                                  cosine);
   }
   const Float8 axis[3] = {load_aligned(node.axis[0]), load_aligned(node.axis[1]), load_aligned(node.axis[2])};
   const Float8 cos_emitter =

@@ -7,41 +7,7 @@
 namespace gradslc {
 namespace {
 
-constexpr float k_rounding = 4e-7f;  // a few ulp of 1: cones must still hold their directions after rounding
-
-/// The mean axis, opened to the widest of the cones. Half angles add by cosines and sines; what exceeds pi is the whole
-/// sphere.
-class ConeUnion {
- public:
-  void add_axis(const Cone& cone) {
-    sum_ = sum_ + cone.axis;
-    whole_ |= cone.cosine <= -1;
-  }
-  void close_axes() {
-    const float squared = length_squared(sum_);
-    whole_ |= !(squared > 1e-8f);
-    if (!whole_) result_.axis = sum_ / std::sqrt(squared);
-  }
-  void open_to(const Cone& cone) {
-    if (whole_) return;
-    const float cos_offset = std::min(dot(result_.axis, cone.axis), 1.0f);
-    if (cos_offset + cone.cosine <= 0) {  // the two angles together reach pi
-      whole_ = true;
-      return;
-    }
-    const float sin_offset = std::sqrt(std::max(0.0f, 1 - cos_offset * cos_offset));
-    result_.cosine = std::min(result_.cosine, cos_offset * cone.cosine - sin_offset * cone.sine());
-  }
-  Cone result() const {
-    if (whole_) return {{0, 0, 1}, -1};
-    return {result_.axis, std::max(-1.0f, result_.cosine - k_rounding)};
-  }
-
- private:
-  Vec3 sum_{0, 0, 0};
-  Cone result_;
-  bool whole_ = false;
-};
+constexpr float k_rounding = Cone::k_rounding;
 
 /// Light leaves a VPL on the side of its shading normal with the geometric normal's |cos|. Where the two normals are at
 /// an angle d, the geometric cosine is negative over the last d before the shading horizon, of size sin(d) at most: a
@@ -51,6 +17,33 @@ float leaf_cone_cosine(float cos_normals) {
 }
 
 }  // namespace
+
+void ConeUnion::add_axis(const Cone& cone) {
+  sum_ = sum_ + cone.axis;
+  whole_ |= cone.cosine <= -1;
+}
+
+void ConeUnion::close_axes() {
+  const float squared = length_squared(sum_);
+  whole_ |= !(squared > 1e-8f);
+  if (!whole_) result_.axis = sum_ / std::sqrt(squared);
+}
+
+void ConeUnion::open_to(const Cone& cone) {
+  if (whole_) return;
+  const float cos_offset = std::min(dot(result_.axis, cone.axis), 1.0f);
+  if (cos_offset + cone.cosine <= 0) {  // the two angles together reach pi
+    whole_ = true;
+    return;
+  }
+  const float sin_offset = std::sqrt(std::max(0.0f, 1 - cos_offset * cos_offset));
+  result_.cosine = std::min(result_.cosine, cos_offset * cone.cosine - sin_offset * cone.sine());
+}
+
+Cone ConeUnion::result() const {
+  if (whole_) return {{0, 0, 1}, -1};
+  return {result_.axis, std::max(-1.0f, result_.cosine - k_rounding)};
+}
 
 LightCluster make_cluster(const VplSet& set, const Vpl& vpl) {
   LightCluster cluster;

@@ -13,7 +13,23 @@ struct Cone {
   Vec3 axis{0, 0, 1};  ///< unit
   float cosine = 1;    ///< of the half angle, in [-1, 1]; -1: all directions
 
+  static constexpr float k_rounding = 4e-7f;  ///< a few ulp of 1: cones hold their directions after rounding
   float sine() const { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
+};
+
+/// A cone that holds others: around their mean axis, opened to the widest. Half angles add by cosines and sines; what
+/// exceeds pi is the whole sphere. First add_axis() for all, then close_axes(), then open_to() for all.
+class ConeUnion {
+ public:
+  void add_axis(const Cone& cone);
+  void close_axes();
+  void open_to(const Cone& cone);
+  Cone result() const;
+
+ private:
+  Vec3 sum_;
+  Cone result_;
+  bool whole_ = false;
 };
 
 /// What the light tree knows of some VPLs together.

@@ -27,6 +27,8 @@ enum class Use : std::uint16_t {
   descent,             ///< descent from a node of the cut; index = node of the cut and level
   vpl_choice,          ///< uniform or power sampling of VPLs
   group_offset,        ///< offset of the blocks or tiles of a pass
+  tile_comb,           ///< place of the comb that draws a tile's candidates
+  candidate_choice,    ///< place of the comb that draws among them for a pixel
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "integrators/gathering.h"
+#include "lighttree/candidates.h"
+
+namespace gradslc {
+
+/// The two-level gathering of DESIGN 5.
+struct TileParameters {
+  int size = 16, candidates = 512, samples = 8;
+  float defensive = 0.1f, cosine_floor = 0.2f;
+};
+
+inline void describe(ParameterVisitor& v, TileParameters& p) {
+  v.integer("size", p.size, {1, 256}, "pixels", "side of a tile, whose pixels share their candidates");
+  v.integer("candidates", p.candidates, {1, 65536}, "VPLs", "VPLs drawn for a tile by its law");
+  v.integer("samples", p.samples, {1, 65536}, "VPLs", "VPLs drawn for a pixel among the tile's, and so shadow rays");
+  v.real("defensive", p.defensive, {0, 1e3}, "share",
+         "weight of the importance to all of a tile's receivers beside that to representatives");
+  v.real("cosine_floor", p.cosine_floor, {0, 1}, "cosine", "least cosine in the importance to representatives");
+}
+
+/// What gathering by tiles has cost.
+struct TileCost {
+  std::uint64_t nodes = 0, candidates = 0, evaluations = 0;
+  TileCost& operator+=(const TileCost& o) {
+    nodes += o.nodes, candidates += o.candidates, evaluations += o.evaluations;
+    return *this;
+  }
+};
+
+/// Gathers from VPLs at the points of one tile after the other. Keeps its memory between tiles; one per thread.
+class TileGatherer {
+ public:
+  TileGatherer(const Scene& scene, const LightTree& tree, const TileParameters& parameters, float bound)
+      : vpls_{scene.materials(), tree.set}, tree_(tree), parameters_(parameters), bound_(bound) {}
+
+  /// Draws the candidates for all gather points of a tile, `u` in [0,1).
+  void begin_tile(std::span<const Receiver> receivers, double u);
+  /// Light from VPLs at x, which must be one of the tile's; `u` in [0,1).
+  Rgb gather(PathContext& context, const PathVertex& x, double u);
+  const TileCost& cost() const { return cost_; }
+
+ private:
+  VplView vpls_;
+  const LightTree& tree_;
+  const TileParameters& parameters_;
+  float bound_;
+  std::vector<Candidate> drawn_;
+  CandidateSet candidates_;
+  std::vector<CandidateDraw> choice_;
+  TileCost cost_;
+};
+
+}  // namespace gradslc

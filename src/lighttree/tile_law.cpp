@@ -1,0 +1,135 @@
+#include "lighttree/tile_law.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "lighttree/cluster_kernel.h"
+
+namespace gradslc {
+namespace {
+
+/// What a node's lanes say that does not depend on the receiver.
+struct NodeLanes {
+  Float8 centre[3], radius2, flux, cap, axis[3], cosine, sine;
+
+  NodeLanes(const LightNode& node, float bound) {
+    radius2 = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Float8 lower = load_aligned(node.lower[i]), half = 0.5f * (load_aligned(node.upper[i]) - lower);
+      centre[i] = lower + half;
+      radius2 += half * half;
+      axis[i] = load_aligned(node.axis[i]);
+    }
+    flux = load_aligned(node.flux), cap = load_aligned(node.capped_flux) * bound;
+    cosine = load_aligned(node.cosine), sine = load_aligned(node.sine);
+  }
+};
+
+/// Flux towards a point at `to` from the boxes' centres.
+Float8 flux_towards(const NodeLanes& lanes, const GlossyLanes* gloss, const Float8 (&to)[3], Float8 distance2) {
+  if (!gloss) return lanes.flux;
+  const Float8 axis[3] = {load_aligned(gloss->axis[0]), load_aligned(gloss->axis[1]), load_aligned(gloss->axis[2])};
+  const Float8 cosine =
+      lane_cone_cosine(to, distance2, lanes.radius2, axis, load_aligned(gloss->cosine), load_aligned(gloss->sine));
+  return lanes.flux + bounded_gloss<Float8>(load_aligned(gloss->peak), load_aligned(gloss->tail),
+                                            load_aligned(gloss->alpha2), cosine);
+}
+
+/// Importance to one receiver: as if a node's light came from its box's centre, at no less than the box's own size,
+/// with cosines that grow with the box and the cone.
+Float8 importance(const NodeLanes& lanes, const GlossyLanes* gloss, const Receiver& r, float floor) {
+  const float position[3] = {r.position.x, r.position.y, r.position.z};
+  const float normal[3] = {r.normal.x, r.normal.y, r.normal.z};
+  Float8 to_receiver[3], centre_distance2 = 0, along_normal = 0, along_axis = 0;
+  for (int i = 0; i < 3; ++i) {
+    to_receiver[i] = position[i] - lanes.centre[i];
+    centre_distance2 += to_receiver[i] * to_receiver[i];
+    along_normal -= to_receiver[i] * normal[i];
+    along_axis += to_receiver[i] * lanes.axis[i];
+  }
+  const Float8 distance2 = centre_distance2 + lanes.radius2;
+  const Float8 per_distance = 1 / stdx::sqrt(distance2);
+  const Float8 cos_receiver =
+      stdx::max(stdx::min((along_normal + stdx::sqrt(lanes.radius2)) * per_distance, Float8(1)), Float8(floor));
+  const Float8 spread = 1 - (1 - along_axis * per_distance) * stdx::max(lanes.cosine, Float8(0));
+  const Float8 cos_emitter = stdx::max(spread, Float8(floor));
+  Float8 reflected = r.bound.cosine * (r.transmits ? Float8(1) : cos_receiver) + r.bound.constant;
+  if (r.bound.gloss.peak > 0) {
+    const Float8 from_receiver[3] = {-to_receiver[0], -to_receiver[1], -to_receiver[2]};
+    const Float8 axis[3] = {r.mirrored.x, r.mirrored.y, r.mirrored.z};
+    const Float8 cosine = lane_cone_cosine(from_receiver, centre_distance2, lanes.radius2, axis, 1, 0);
+    reflected += bounded_gloss<Float8>(r.bound.gloss.peak, r.bound.gloss.tail, r.bound.gloss.alpha2, cosine);
+  }
+  const Float8 power = reflected * flux_towards(lanes, gloss, to_receiver, centre_distance2) * cos_emitter;
+  Float8 result = stdx::min(power * per_distance * per_distance, lanes.cap);
+  stdx::where(!(distance2 > 0), result) = stdx::min(lanes.cap, power);  // a VPL in the receiver's place
+  stdx::where(power == 0, result) = 0;
+  return result;
+}
+
+/// About the directional albedo that the bound stands for: falloff() covers 4 pi alpha^2 sr.
+float albedo_of(const ReflectionBound& bound) {
+  return bound.cosine + bound.constant + 4 * bound.gloss.alpha2 * bound.gloss.peak;
+}
+
+}  // namespace
+
+TileLaw::TileLaw(std::span<const Receiver> receivers, const TileLawSettings& settings) : settings_(settings) {
+  Bounds3 box;
+  ConeUnion normals;
+  bool transmits = false;
+  for (const Receiver& r : receivers) {
+    box.extend(r.position);
+    normals.add_axis({as_vec(r.normal), 1});
+    transmits |= r.transmits;
+  }
+  normals.close_axes();
+  for (const Receiver& r : receivers) normals.open_to({as_vec(r.normal), 1});
+  centre_ = box.centre();
+  radius_ = 0.5f * length(box.diagonal());
+  normals_ = transmits ? Cone{{0, 0, 1}, -1} : normals.result();
+
+  // In raster order, steps of the golden ratio make a Fibonacci lattice over the tile.
+  representative_count_ = std::min(receivers.size(), representatives_.size());
+  for (std::size_t i = 0; i < representative_count_; ++i) {
+    const double turn = static_cast<double>(i) / std::numbers::phi;
+    const std::size_t index =
+        representative_count_ == receivers.size()
+            ? i
+            : static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(receivers.size()));
+    const float albedo = albedo_of(receivers[index].bound);
+    representatives_[i] = {receivers[index], albedo > 0 ? 1 / (albedo * static_cast<float>(representative_count_)) : 0};
+  }
+}
+
+void TileLaw::weigh(const LightTree& tree, NodeIndex index, LightNode::Lanes& weights) const {
+  const LightNode& node = tree.nodes[index];
+  const GlossyLanes* gloss = tree.gloss.empty() ? nullptr : &tree.gloss[index];
+  const NodeLanes lanes(node, settings_.bound);
+  Float8 sum = 0;
+  for (std::size_t i = 0; i < representative_count_; ++i)
+    sum += representatives_[i].scale * importance(lanes, gloss, representatives_[i].receiver, settings_.cosine_floor);
+
+  // The sphere of the receivers and that of the box, seen from each other, are one sphere seen from a point.
+  const Float8 to_tile[3] = {centre_.x - lanes.centre[0], centre_.y - lanes.centre[1], centre_.z - lanes.centre[2]};
+  const Float8 from_tile[3] = {-to_tile[0], -to_tile[1], -to_tile[2]};
+  const Float8 distance2 = to_tile[0] * to_tile[0] + to_tile[1] * to_tile[1] + to_tile[2] * to_tile[2];
+  const Float8 radius = stdx::sqrt(lanes.radius2) + radius_, radius2 = radius * radius;
+  const Float8 tile_axis[3] = {normals_.axis.x, normals_.axis.y, normals_.axis.z};
+  const auto slackened = [](Float8 cosine) {
+    return stdx::max(stdx::min(cosine + k_cosine_slack, Float8(1)), Float8(0));
+  };
+  const Float8 cosines =
+      slackened(lane_cone_cosine(from_tile, distance2, radius2, tile_axis, normals_.cosine, normals_.sine())) *
+      slackened(lane_cone_cosine(to_tile, distance2, radius2, lanes.axis, lanes.cosine, lanes.sine));
+  Float8 flux = lanes.flux;
+  if (gloss) flux += load_aligned(gloss->peak);
+  const Float8 spread2 = distance2 + radius2;
+  Float8 all = stdx::min(flux * cosines / spread2, lanes.cap);
+  stdx::where(!(spread2 > 0), all) = lanes.cap;
+  sum += settings_.defensive * all;
+  stdx::where(cosines == 0 || flux == 0, sum) = 0;
+  sum.copy_to(weights, stdx::vector_aligned);
+}
+
+}  // namespace gradslc

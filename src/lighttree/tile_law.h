@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "lighttree/bounds.h"
+
+namespace gradslc {
+
+struct TileLawSettings {
+  float defensive = 0.1f;     ///< share of the importance to all receivers together
+  float cosine_floor = 0.2f;  ///< least cosine of the importance to one receiver
+  float bound = k_infinity;   ///< b of connections
+};
+
+/// How important VPLs are to all receivers of a tile (DESIGN 5): the mean of the importance to some of them, which
+/// represent the others, plus `defensive` times an importance that is 0 only where nothing lights any receiver. A
+/// node's weight is an estimate and no bound; what counts is that it is positive wherever a VPL below lights a
+/// receiver.
+class TileLaw {
+ public:
+  /// `receivers`: at least one. Representatives are spread evenly over their order.
+  TileLaw(std::span<const Receiver> receivers, const TileLawSettings& settings);
+
+  /// Weights of a node's children.
+  void weigh(const LightTree& tree, NodeIndex node, LightNode::Lanes& weights) const;
+
+ private:
+  struct Representative {
+    Receiver receiver;
+    float scale;  ///< makes receivers of all albedos alike
+  };
+  std::array<Representative, 16> representatives_;
+  std::size_t representative_count_ = 0;
+  // All receivers: a sphere around them, and a cone of their normals.
+  Point3 centre_;
+  float radius_ = 0;
+  Cone normals_;
+  TileLawSettings settings_;
+};
+
+}  // namespace gradslc
