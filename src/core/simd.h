@@ -19,4 +19,9 @@ Vector load_aligned(const float* array) {
   return Vector(array, stdx::vector_aligned);
 }
 
+template <class Vector>
+Vector lane_dot(const Vector (&a)[3], const Vector (&b)[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 }  // namespace gradslc

@@ -96,37 +96,43 @@ class StochasticLightcuts final : public Integrator {
                                    tile_stream(k_image).get2(Use::group_offset));
     FilmHalf& half = film.half(slot.half);
     std::mutex cost_mutex;
-    parallel_for(partition.size(), 1, [&](std::size_t tile, std::size_t) {
+    constexpr std::size_t k_tiles_per_chunk = 4;  // memory is kept from tile to tile
+    parallel_for(partition.size(), k_tiles_per_chunk, [&](std::size_t begin, std::size_t end) {
       TileGatherer gatherer(*scene_, tree, tile_, gather_.bound);
-      const auto [first, size] = partition.block(tile);
-      std::vector<CameraPrefix> prefixes;
-      std::vector<PathContext> contexts;
+      std::vector<TilePixel> pixels;
       std::vector<Receiver> receivers;
-      for (std::size_t i = 0; i < size.pixels(); ++i) {
-        const std::size_t index = film.resolution().index(first + size.pixel(i));
-        auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
-        prefixes.push_back(trace_camera_prefix(context, position));
-        contexts.push_back(context);
-        if (prefixes.back().gather) receivers.push_back(make_receiver({*prefixes.back().gather, context.lobes}));
-      }
-      gatherer.begin_tile(receivers, tile_stream(tile).get1_double(Use::tile_comb));
       std::uint64_t rays = 0;
-      for (std::size_t i = 0; i < size.pixels(); ++i) {
-        PathContext& context = contexts[i];
-        const CameraPrefix& prefix = prefixes[i];
-        PartValues radiance = prefix.radiance;
-        if (prefix.gather) {
-          gather_without_vpls(context, prefix, gather_, radiance);
-          radiance[Part::vpl] += prefix.throughput * gatherer.gather(context, *prefix.gather,
-                                                                     context.random.get1_double(Use::candidate_choice));
+      for (std::size_t tile = begin; tile < end; ++tile) {
+        const auto [first, size] = partition.block(tile);
+        pixels.clear(), receivers.clear();
+        for (std::size_t i = 0; i < size.pixels(); ++i) {
+          const std::size_t index = film.resolution().index(first + size.pixel(i));
+          auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+          const auto& prefix = pixels.emplace_back(context, trace_camera_prefix(context, position)).prefix;
+          if (prefix.gather) receivers.push_back(make_receiver({*prefix.gather, context.lobes}));
         }
-        record(half, first + size.pixel(i), radiance);
-        rays += context.rays;
+        gatherer.begin_tile(receivers, tile_stream(tile).get1_double(Use::tile_comb));
+        for (std::size_t i = 0; i < size.pixels(); ++i) {
+          auto& [context, prefix] = pixels[i];
+          PartValues radiance = prefix.radiance;
+          if (prefix.gather) {
+            gather_without_vpls(context, prefix, gather_, radiance);
+            const double u = context.random.get1_double(Use::candidate_choice);
+            radiance[Part::vpl] += prefix.throughput * gatherer.gather(context, *prefix.gather, u);
+          }
+          record(half, first + size.pixel(i), radiance);
+          rays += context.rays;
+        }
       }
       const std::lock_guard lock(cost_mutex);
       rays_ += rays, tile_cost_ += gatherer.cost();
     });
   }
+
+  struct TilePixel {
+    PathContext context;
+    CameraPrefix prefix;
+  };
 
   Gather gather_kind_ = Gather::descent;
   int cut_size_ = 10;

@@ -82,8 +82,8 @@ float cluster_bound(const LightCluster& cluster, const Receiver& receiver, float
   return bounded_importance(terms.power, terms.min_distance2, cluster.capped_flux, bound);
 }
 
-void evaluate_children(const LightTree& tree, NodeIndex index, std::span<const Receiver> receivers, float bound,
-                       ChildWeights& weights) {
+[[gnu::flatten]] void evaluate_children(const LightTree& tree, NodeIndex index, std::span<const Receiver> receivers,
+                                        float bound, ChildWeights& weights) {
   const LightNode& node = tree.nodes[index];
   const GlossyLanes* gloss = tree.gloss.empty() ? nullptr : &tree.gloss[index];
   const Float8 cap = load_aligned(node.capped_flux) * bound;

@@ -15,114 +15,125 @@ CandidateReceiver make_candidate_receiver(const GatherPoint& point, int least_k,
 }
 
 void CandidateSet::assign(const VplSet& set, std::span<const Candidate> candidates, int comb_size) {
-  size_ = candidates.size();
-  const std::size_t groups = (size_ + k_lanes - 1) / k_lanes;
-  vpls_.resize(size_), weights_.resize(size_), lambert_.resize(size_);
-  glossy_ = false;
-  for (Column* column :
-       {&position_[0], &position_[1], &position_[2], &geometric_[0], &geometric_[1], &geometric_[2], &shading_[0],
-        &shading_[1],  &shading_[2],  &flux_[0],     &flux_[1],      &flux_[2],      &strength_,     &vertex_,
-        &broad_,       &peak_,        &tail_,        &alpha2_,       &mirrored_[0],  &mirrored_[1],  &mirrored_[2]})
-    column->assign(groups, Lanes{});
+  const std::size_t count = candidates.size(), groups = (count + k_lanes - 1) / k_lanes;
+  vpls_.resize(count), weights_.resize(count);
+  groups_.assign(groups, Group{});
+  vertices_.assign(groups, 0);
   geometry_.resize(groups), summed_.resize(groups);
-  const auto put = [](Column& column, std::size_t i, float value) { column[i / k_lanes].values[i % k_lanes] = value; };
-  const auto put_vec = [&](Column(&columns)[3], std::size_t i, Vec3 v) {
-    put(columns[0], i, v.x), put(columns[1], i, v.y), put(columns[2], i, v.z);
-  };
-  for (std::size_t i = 0; i < size_; ++i) {
+  least_vertex_ = k_infinity, most_vertex_ = 0;
+  simple_ = true;
+  for (std::size_t i = 0; i < count; ++i) {
     const Vpl& vpl = set.vpls[candidates[i].vpl];
     vpls_[i] = candidates[i].vpl;
     const double expected = static_cast<double>(comb_size) * candidates[i].probability;
     weights_[i] = static_cast<float>(static_cast<double>(candidates[i].count) / expected);
-    lambert_[i] = vpl.is_lambert() ? 1 : 0;
-    put_vec(position_, i, from_origin(vpl.position));
-    put_vec(geometric_, i, vpl.geometric_normal.decode());
-    const Vec3 shading_normal = vpl.shading_normal.decode();
-    put_vec(shading_, i, set.transmits(vpl) ? Vec3() : shading_normal);  // zero: lights both sides
-    const Rgb flux = weights_[i] * vpl.flux;
-    put_vec(flux_, i, {flux.r, flux.g, flux.b});
-    put(vertex_, i, static_cast<float>(vpl.vertex));
-    put(alpha2_, i, 1);
-    if (vpl.is_lambert()) {
-      put(strength_, i, vpl.max_pi_f), put(broad_, i, 1);
-      continue;
-    }
-    const VplSurface& surface = set.surfaces[vpl.surface];
-    put(strength_, i, 1), put(broad_, i, surface.bound.broad);
-    if (surface.bound.gloss.peak == 0) continue;
-    glossy_ = true;
-    put(peak_, i, surface.bound.gloss.peak), put(tail_, i, surface.bound.gloss.tail);
-    put(alpha2_, i, surface.bound.gloss.alpha2);
-    put_vec(mirrored_, i, mirrored(vpl.incoming.decode(), shading_normal));
+    const auto vertex = static_cast<float>(vpl.vertex);
+    least_vertex_ = std::min(least_vertex_, vertex), most_vertex_ = std::max(most_vertex_, vertex);
+    simple_ = simple_ && vpl.is_lambert() && vpl.shading_normal == vpl.geometric_normal;
   }
+  if (!simple_) details_.assign(groups, Details{});
+  for (std::size_t i = 0; i < count; ++i) put(set, i);
+}
+
+void CandidateSet::put(const VplSet& set, std::size_t index) {
+  const Vpl& vpl = set.vpls[vpls_[index]];
+  const std::size_t lane = index % k_lanes;
+  const auto put_vec = [&](FloatV(&v)[3], Vec3 value) {
+    v[0][lane] = value.x, v[1][lane] = value.y, v[2][lane] = value.z;
+  };
+  Group& group = groups_[index / k_lanes];
+  put_vec(group.position, from_origin(vpl.position));
+  put_vec(group.geometric, vpl.geometric_normal.decode());
+  const Rgb flux = weights_[index] * vpl.flux;
+  put_vec(group.flux, {flux.r, flux.g, flux.b});
+  group.inverse_pi_f_y[lane] = vpl.is_lambert() ? 1 / vpl.max_pi_f : 1;
+  vertices_[index / k_lanes][lane] = static_cast<float>(vpl.vertex);
+  if (simple_) return;
+  Details& details = details_[index / k_lanes];
+  const Vec3 shading_normal = vpl.shading_normal.decode();
+  put_vec(details.shading, set.transmits(vpl) ? Vec3() : shading_normal);
+  const ValueBound bound = vpl.is_lambert() ? ValueBound{1, {}} : set.surfaces[vpl.surface].bound;
+  details.broad[lane] = bound.broad;
+  details.peak[lane] = bound.gloss.peak, details.tail[lane] = bound.gloss.tail;
+  details.alpha2[lane] = bound.gloss.peak > 0 ? bound.gloss.alpha2 : 1;
+  put_vec(details.mirrored, mirrored(vpl.incoming.decode(), shading_normal));
 }
 
 void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
+  const bool all_count = static_cast<float>(r.least_k) <= least_vertex_ && most_vertex_ <= static_cast<float>(r.most_k);
+  if (simple_ && r.lambert && all_count)
+    evaluate_lambert(r, bound);
+  else
+    evaluate_any(r, bound);
+}
+
+[[gnu::flatten]] void CandidateSet::evaluate_lambert(const CandidateReceiver& r, float bound) {
+  const FloatV x[3] = {r.receiver.position.x, r.receiver.position.y, r.receiver.position.z};
+  const FloatV n[3] = {r.receiver.normal.x, r.receiver.normal.y, r.receiver.normal.z};
+  const FloatV diffuse[3] = {r.diffuse.r, r.diffuse.g, r.diffuse.b};
+  const FloatV cap = bound / max_channel(r.diffuse), zero = 0;
+  FloatV sum = 0;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const Group& g = groups_[i];
+    const FloatV d[3] = {g.position[0] - x[0], g.position[1] - x[1], g.position[2] - x[2]};
+    const FloatV distance2 = lane_dot(d, d);
+    const FloatV along_x = stdx::max(lane_dot(d, n), zero), along_y = stdx::min(lane_dot(d, g.geometric), zero);
+    const FloatV per_distance2 = 1 / distance2;
+    FloatV geometry = stdx::min(-along_x * along_y * (per_distance2 * per_distance2), cap * g.inverse_pi_f_y);
+    stdx::where(!(distance2 > zero), geometry) = 0;
+    geometry_[i] = geometry;
+    sum += geometry * stdx::max(stdx::max(diffuse[0] * g.flux[0], diffuse[1] * g.flux[1]), diffuse[2] * g.flux[2]);
+    summed_[i] = sum;
+  }
+}
+
+[[gnu::flatten]] void CandidateSet::evaluate_any(const CandidateReceiver& r, float bound) {
   const Receiver& x = r.receiver;
+  const FloatV position[3] = {x.position.x, x.position.y, x.position.z};
+  const FloatV normal[3] = {x.normal.x, x.normal.y, x.normal.z};
+  const FloatV image[3] = {x.mirrored.x, x.mirrored.y, x.mirrored.z};
   const FloatV zero = 0;
   FloatV sum = 0;
-  const bool reflects_gloss = x.bound.gloss.peak > 0;
-  const float max_diffuse = max_channel(r.diffuse);
-  for (std::size_t group = 0; group < geometry_.size(); ++group) {
-    const FloatV dx = load(position_[0], group) - x.position.x, dy = load(position_[1], group) - x.position.y,
-                 dz = load(position_[2], group) - x.position.z;
-    const FloatV distance2 = dx * dx + dy * dy + dz * dz;
-    const FloatV along_x = dx * x.normal.x + dy * x.normal.y + dz * x.normal.z;  // cos_x times distance
-    const FloatV along_y =
-        dx * load(geometric_[0], group) + dy * load(geometric_[1], group) + dz * load(geometric_[2], group);
-    const FloatV facing = dx * load(shading_[0], group) + dy * load(shading_[1], group) + dz * load(shading_[2], group);
-    const FloatV per_distance2 = 1 / distance2;
-    // Both cosines over the squared distance; the largest pi f of both in `strength`.
-    FloatV geometry = stdx::abs(along_x * along_y) * per_distance2 * per_distance2;
-    const FloatV vertex = load(vertex_, group);
-    auto dark = !(distance2 > zero) || facing > zero || vertex < static_cast<float>(r.least_k) ||
-                vertex > static_cast<float>(r.most_k);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const Group& g = groups_[i];
+    const FloatV d[3] = {g.position[0] - position[0], g.position[1] - position[1], g.position[2] - position[2]};
+    const FloatV distance2 = lane_dot(d, d), per_distance2 = 1 / distance2;
+    const FloatV along_x = lane_dot(d, normal), along_y = lane_dot(d, g.geometric);
+    const FloatV facing = simple_ ? along_y : lane_dot(d, details_[i].shading);
+    auto dark = !(distance2 > zero) || facing > zero || vertices_[i] < static_cast<float>(r.least_k) ||
+                vertices_[i] > static_cast<float>(r.most_k);
     if (!x.transmits) dark = dark || along_x <= zero;
-    stdx::where(dark, geometry) = 0;
 
-    FloatV emitted = load(broad_, group);
-    FloatV per_distance = 0;
-    if (glossy_ || reflects_gloss) per_distance = stdx::sqrt(per_distance2);
-    if (glossy_) {
-      const FloatV cosine =
-          -(dx * load(mirrored_[0], group) + dy * load(mirrored_[1], group) + dz * load(mirrored_[2], group)) *
-          per_distance;
-      emitted += bounded_gloss(load(peak_, group), load(tail_, group), load(alpha2_, group), cosine);
+    FloatV geometry = stdx::abs(along_x * along_y) * (per_distance2 * per_distance2);
+    const FloatV per_distance = stdx::sqrt(per_distance2);
+    FloatV emitted = 1;
+    if (!simple_) {
+      const Details& y = details_[i];
+      emitted = y.broad + bounded_gloss<FloatV>(y.peak, y.tail, y.alpha2, -lane_dot(d, y.mirrored) * per_distance);
     }
-    FloatV reflected = max_diffuse;
-    FloatV target = stdx::max(stdx::max(r.diffuse.r * load(flux_[0], group), r.diffuse.g * load(flux_[1], group)),
-                              r.diffuse.b * load(flux_[2], group));
-    if (!r.lambert) {
-      // Bounds of pi f |cos|, over the cosine that the geometric factor holds.
-      const FloatV largest_flux =
-          stdx::max(stdx::max(load(flux_[0], group), load(flux_[1], group)), load(flux_[2], group));
-      FloatV other = x.bound.constant;
-      if (reflects_gloss) {
-        const FloatV cosine = (dx * x.mirrored.x + dy * x.mirrored.y + dz * x.mirrored.z) * per_distance;
-        other +=
-            bounded_gloss(FloatV(x.bound.gloss.peak), FloatV(x.bound.gloss.tail), FloatV(x.bound.gloss.alpha2), cosine);
-      }
-      other /= stdx::abs(along_x) * stdx::sqrt(per_distance2);
-      stdx::where(geometry == 0, other) = 0;
-      reflected += other;
-      target += largest_flux * other;
-    }
-    target *= emitted;
-    const FloatV strength = reflected * emitted * load(strength_, group) * geometry;
-    FloatV bounded = bound / strength;
-    stdx::where(!(strength > bound), bounded) = 1;
-    geometry *= bounded;
-    geometry.copy_to(geometry_[group].values.data(), stdx::vector_aligned);
-    target *= geometry;
-    stdx::where(geometry == zero, target) = 0;
+    // Bounds of pi f |cos| over the cosine that the geometric factor holds.
+    FloatV other = x.bound.constant;
+    if (x.bound.gloss.peak > 0)
+      other += bounded_gloss<FloatV>(x.bound.gloss.peak, x.bound.gloss.tail, x.bound.gloss.alpha2,
+                                     lane_dot(d, image) * per_distance);
+    other /= stdx::abs(along_x) * per_distance;
+    const FloatV reflected = max_channel(r.diffuse) + other;
+    geometry = stdx::min(geometry, bound * g.inverse_pi_f_y / (reflected * emitted));
+    const FloatV diffuse =
+        stdx::max(stdx::max(r.diffuse.r * g.flux[0], r.diffuse.g * g.flux[1]), r.diffuse.b * g.flux[2]);
+    const FloatV flux = stdx::max(stdx::max(g.flux[0], g.flux[1]), g.flux[2]);
+    FloatV target = (diffuse + (r.lambert ? zero : other * flux)) * emitted * geometry;
+    stdx::where(dark || emitted <= zero, geometry) = 0;
+    stdx::where(geometry <= zero || flux <= zero, target) = 0;
+    geometry_[i] = geometry;
     sum += target;
-    sum.copy_to(summed_[group].values.data(), stdx::vector_aligned);
+    summed_[i] = sum;
   }
 }
 
 float CandidateSet::target(std::uint32_t candidate) const {
   const std::size_t group = candidate / k_lanes, lane = candidate % k_lanes;
-  return summed_[group].values[lane] - (group > 0 ? summed_[group - 1].values[lane] : 0);
+  return summed_[group][lane] - (group > 0 ? summed_[group - 1][lane] : 0);
 }
 
 void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& draws) const {
@@ -131,23 +142,21 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
   std::array<double, k_lanes> end_of_lane;
   double total = 0;
   for (std::size_t lane = 0; lane < k_lanes; ++lane)
-    end_of_lane[lane] = total += static_cast<double>(summed_.back().values[lane]);
+    end_of_lane[lane] = total += static_cast<double>(summed_.back()[lane]);
   if (!(total > 0)) return;
   std::size_t lane = 0;
   for (int s = 0; s < samples; ++s) {
     const double position = (s + u) / samples * total;
     while (lane + 1 < k_lanes && position >= end_of_lane[lane]) ++lane;
     const auto within = static_cast<float>(position - (lane > 0 ? end_of_lane[lane - 1] : 0));
-    // The first group whose sum exceeds the position within the lane.
-    std::size_t low = 0, high = summed_.size() - 1;
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (summed_[middle].values[lane] > within)
-        high = middle;
-      else
-        low = middle + 1;
+    // The first group whose sum exceeds the position within the lane, by halving without branches.
+    std::size_t group = 0;
+    for (std::size_t left = summed_.size() - 1; left > 0;) {
+      const std::size_t half = (left + 1) / 2;
+      group += summed_[group + half - 1][lane] > within ? 0 : half;
+      left -= half;
     }
-    const auto candidate = static_cast<std::uint32_t>(low * k_lanes + lane);
+    const auto candidate = static_cast<std::uint32_t>(group * k_lanes + lane);
     const double probability = static_cast<double>(target(candidate)) / total;
     if (!(probability > 0)) continue;  // rounding at a lane's end
     if (!draws.empty() && draws.back().candidate == candidate)
@@ -158,8 +167,10 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
 }
 
 Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const {
-  const Rgb flux(at(flux_[0], candidate), at(flux_[1], candidate), at(flux_[2], candidate));
-  return receiver.diffuse * flux * (k_inv_pi * k_inv_pi * at(geometry_, candidate));
+  const std::size_t group = candidate / k_lanes, lane = candidate % k_lanes;
+  const auto& flux = groups_[group].flux;
+  return receiver.diffuse * Rgb(flux[0][lane], flux[1][lane], flux[2][lane]) *
+         (k_inv_pi * k_inv_pi * geometry_[group][lane]);
 }
 
 }  // namespace gradslc

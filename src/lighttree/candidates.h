@@ -35,9 +35,9 @@ class CandidateSet {
  public:
   /// `comb_size`: of draw_candidates().
   void assign(const VplSet& set, std::span<const Candidate> candidates, int comb_size);
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return vpls_.size(); }
 
-  /// Target of every candidate; the sum is what choose() draws from.
+  /// Finds the target of every candidate; choose() draws in proportion.
   void evaluate(const CandidateReceiver& receiver, float bound);
   /// Systematic resampling of `samples` draws with `u` in [0,1). Empty if no candidate contributes.
   void choose(int samples, double u, std::vector<CandidateDraw>& draws) const;
@@ -45,32 +45,38 @@ class CandidateSet {
   std::uint32_t vpl(std::uint32_t candidate) const { return vpls_[candidate]; }
   /// Count over expected count: what a contribution of this candidate is multiplied by.
   float weight(std::uint32_t candidate) const { return weights_[candidate]; }
-  /// Where both lobes are Lambert's: weight() times the contribution, which evaluate() has found.
+  /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() has found it.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const;
-  bool is_lambert(std::uint32_t candidate) const { return lambert_[candidate] != 0; }
-  /// For tests: what evaluate() has found.
+  /// As evaluate() has found it, in the unit of the largest channel of pi^2 contribution().
   float target(std::uint32_t candidate) const;
 
  private:
   static constexpr std::size_t k_lanes = FloatV::size();
-  struct alignas(64) Lanes {
-    std::array<float, k_lanes> values;
+  /// Of as many candidates as a vector has lanes. Lanes without a candidate have no flux.
+  struct Group {
+    FloatV position[3], geometric[3];
+    FloatV flux[3];         ///< times weight()
+    FloatV inverse_pi_f_y;  ///< 1 / pi f_c(y), largest channel, where it is Lambert's, else 1
   };
-  using Column = std::vector<Lanes>;
-  static float at(const Column& column, std::size_t i) { return column[i / k_lanes].values[i % k_lanes]; }
-  FloatV load(const Column& column, std::size_t group) const {
-    return load_aligned<FloatV>(column[group].values.data());
-  }
+  /// What only some sets need.
+  struct Details {
+    FloatV shading[3];                 ///< 0: lights both sides
+    FloatV broad, peak, tail, alpha2;  ///< of pi f_c(y), where it is not Lambert's; else broad is 1
+    FloatV mirrored[3];
+  };
+  void put(const VplSet& set, std::size_t index);
+  void evaluate_lambert(const CandidateReceiver& receiver, float bound);
+  void evaluate_any(const CandidateReceiver& receiver, float bound);
 
-  std::size_t size_ = 0;
-  bool glossy_ = false;
   std::vector<std::uint32_t> vpls_;
   std::vector<float> weights_;
-  std::vector<std::uint8_t> lambert_;
-  Column position_[3], geometric_[3], shading_[3], flux_[3], strength_, vertex_;
-  Column broad_, peak_, tail_, alpha2_, mirrored_[3];
-  // Results of evaluate(): geometric factors, and targets summed up lane by lane.
-  Column geometry_, summed_;
+  std::vector<Group> groups_;
+  std::vector<Details> details_;
+  std::vector<FloatV> vertices_;
+  bool simple_ = true;  ///< Lambert VPLs whose two normals are one
+  float least_vertex_ = 0, most_vertex_ = 0;
+  // Results of evaluate(): cosines over squared distance, bounded; targets summed up lane by lane.
+  std::vector<FloatV> geometry_, summed_;
 };
 
 }  // namespace gradslc

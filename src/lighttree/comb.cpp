@@ -31,6 +31,7 @@ std::uint64_t draw_candidates(const LightTree& tree, const TileLaw& law, int siz
     double total = 0;
     for (const float weight : weights) total += static_cast<double>(weight);
     if (!(total > 0)) continue;
+    const double per_total = 1 / total;
 
     // Point k lies at (k + u) / size. Children share their borders, so that each point falls to one of them.
     const std::size_t first_pushed = stack.size();
@@ -38,10 +39,10 @@ std::uint64_t draw_candidates(const LightTree& tree, const TileLaw& law, int siz
     std::uint32_t first_point = share.first_point;
     for (int lane = 0; lane < LightNode::k_width; ++lane) {
       if (weights[lane] == 0) continue;
-      const double probability = static_cast<double>(weights[lane]) / total;
-      const double low = share.low + share.width * (below / total);
+      const double probability = static_cast<double>(weights[lane]) * per_total;
+      const double low = share.low + share.width * (below * per_total);
       below += static_cast<double>(weights[lane]);
-      const double high = share.low + share.width * (below / total);
+      const double high = share.low + share.width * (below * per_total);
       const double border = std::ceil(high * points - u);
       const std::uint32_t end_point =
           below == total ? share.end_point

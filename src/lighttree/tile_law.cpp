@@ -10,7 +10,8 @@ namespace {
 
 /// What a node's lanes say that does not depend on the receiver.
 struct NodeLanes {
-  Float8 centre[3], radius2, flux, cap, axis[3], cosine, sine;
+  Float8 centre[3], radius2, radius, flux, cap, axis[3], cosine, sine;
+  Float8 narrowness;  ///< 1 where all normals are one, 0 from half a sphere on
 
   NodeLanes(const LightNode& node, float bound) {
     radius2 = 0;
@@ -21,7 +22,9 @@ struct NodeLanes {
       axis[i] = load_aligned(node.axis[i]);
     }
     flux = load_aligned(node.flux), cap = load_aligned(node.capped_flux) * bound;
+    radius = stdx::sqrt(radius2);
     cosine = load_aligned(node.cosine), sine = load_aligned(node.sine);
+    narrowness = stdx::max(cosine, Float8(0));
   }
 };
 
@@ -38,20 +41,16 @@ Float8 flux_towards(const NodeLanes& lanes, const GlossyLanes* gloss, const Floa
 /// Importance to one receiver: as if a node's light came from its box's centre, at no less than the box's own size,
 /// with cosines that grow with the box and the cone.
 Float8 importance(const NodeLanes& lanes, const GlossyLanes* gloss, const Receiver& r, float floor) {
-  const float position[3] = {r.position.x, r.position.y, r.position.z};
-  const float normal[3] = {r.normal.x, r.normal.y, r.normal.z};
-  Float8 to_receiver[3], centre_distance2 = 0, along_normal = 0, along_axis = 0;
-  for (int i = 0; i < 3; ++i) {
-    to_receiver[i] = position[i] - lanes.centre[i];
-    centre_distance2 += to_receiver[i] * to_receiver[i];
-    along_normal -= to_receiver[i] * normal[i];
-    along_axis += to_receiver[i] * lanes.axis[i];
-  }
+  const Float8 to_receiver[3] = {r.position.x - lanes.centre[0], r.position.y - lanes.centre[1],
+                                 r.position.z - lanes.centre[2]};
+  const Float8 normal[3] = {r.normal.x, r.normal.y, r.normal.z};
+  const Float8 centre_distance2 = lane_dot(to_receiver, to_receiver), along_axis = lane_dot(to_receiver, lanes.axis);
+  const Float8 along_normal = -lane_dot(to_receiver, normal);
   const Float8 distance2 = centre_distance2 + lanes.radius2;
   const Float8 per_distance = 1 / stdx::sqrt(distance2);
   const Float8 cos_receiver =
-      stdx::max(stdx::min((along_normal + stdx::sqrt(lanes.radius2)) * per_distance, Float8(1)), Float8(floor));
-  const Float8 spread = 1 - (1 - along_axis * per_distance) * stdx::max(lanes.cosine, Float8(0));
+      stdx::max(stdx::min((along_normal + lanes.radius) * per_distance, Float8(1)), Float8(floor));
+  const Float8 spread = 1 + (along_axis * per_distance - 1) * lanes.narrowness;
   const Float8 cos_emitter = stdx::max(spread, Float8(floor));
   Float8 reflected = r.bound.cosine * (r.transmits ? Float8(1) : cos_receiver) + r.bound.constant;
   if (r.bound.gloss.peak > 0) {
@@ -102,7 +101,7 @@ TileLaw::TileLaw(std::span<const Receiver> receivers, const TileLawSettings& set
   }
 }
 
-void TileLaw::weigh(const LightTree& tree, NodeIndex index, LightNode::Lanes& weights) const {
+[[gnu::flatten]] void TileLaw::weigh(const LightTree& tree, NodeIndex index, LightNode::Lanes& weights) const {
   const LightNode& node = tree.nodes[index];
   const GlossyLanes* gloss = tree.gloss.empty() ? nullptr : &tree.gloss[index];
   const NodeLanes lanes(node, settings_.bound);
@@ -113,8 +112,8 @@ void TileLaw::weigh(const LightTree& tree, NodeIndex index, LightNode::Lanes& we
   // The sphere of the receivers and that of the box, seen from each other, are one sphere seen from a point.
   const Float8 to_tile[3] = {centre_.x - lanes.centre[0], centre_.y - lanes.centre[1], centre_.z - lanes.centre[2]};
   const Float8 from_tile[3] = {-to_tile[0], -to_tile[1], -to_tile[2]};
-  const Float8 distance2 = to_tile[0] * to_tile[0] + to_tile[1] * to_tile[1] + to_tile[2] * to_tile[2];
-  const Float8 radius = stdx::sqrt(lanes.radius2) + radius_, radius2 = radius * radius;
+  const Float8 distance2 = lane_dot(to_tile, to_tile);
+  const Float8 radius = lanes.radius + radius_, radius2 = radius * radius;
   const Float8 tile_axis[3] = {normals_.axis.x, normals_.axis.y, normals_.axis.z};
   const auto slackened = [](Float8 cosine) {
     return stdx::max(stdx::min(cosine + k_cosine_slack, Float8(1)), Float8(0));

@@ -1,0 +1,218 @@
+// The two levels of gathering by tiles: the comb's draw of candidates, and a pixel's choice among them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "lighttree/candidates.h"
+#include "random_vpls.h"
+
+namespace gradslc {
+namespace {
+
+LightTree pairs(VplSet set) { return builder_registry()[0].build(std::move(set)); }
+
+constexpr int k_places = 512;  // of a comb: an even grid, so that means over it are integrals
+
+struct Tile {
+  std::vector<ShadedPoint> points;
+  std::vector<Receiver> receivers;
+};
+
+Tile random_tile(TestRandom& random, std::size_t count, bool glossy) {
+  Tile tile;
+  for (std::size_t i = 0; i < count; ++i) {
+    tile.points.push_back(random_gather_point(random, 1.5f, glossy));
+    tile.receivers.push_back(make_receiver({tile.points.back(), LobeSelection()}));
+  }
+  return tile;
+}
+
+TEST(Comb, CountsAreWhatTheProbabilitiesSayAndNoVplThatLightsAReceiverIsMissed) {
+  TestRandom random(1);
+  for (int round = 0; round < 20; ++round) {
+    const bool glossy = round % 2 == 0;
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(200), 1, glossy));
+    const Tile tile = random_tile(random, 1 + random.below(40), glossy);
+    const float bound = round % 3 == 0 ? k_infinity : 0.7f;
+    const TileLaw law(tile.receivers, {.bound = bound});
+    const int size = 1 + static_cast<int>(random.below(64));
+    std::vector<double> mean_count(tree.set.vpls.size(), 0), probability(tree.set.vpls.size(), 0);
+    std::vector<Candidate> candidates;
+    for (int i = 0; i < k_places; ++i) {
+      draw_candidates(tree, law, size, (i + 0.5) / k_places, candidates);
+      for (const Candidate& c : candidates) {
+        mean_count[c.vpl] += static_cast<double>(c.count) / k_places;
+        probability[c.vpl] = c.probability;
+      }
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < mean_count.size(); ++i) {
+      // A comb's count differs from its mean by less than one; on the grid of places the mean by one place.
+      EXPECT_NEAR(mean_count[i], size * probability[i], 1.01 / k_places);
+      sum += probability[i];
+    }
+    EXPECT_LE(sum, 1 + 1e-9);
+    for (std::size_t i = 0; i < mean_count.size(); ++i)
+      for (const ShadedPoint& x : tile.points)
+        if (max_channel(unshadowed(x, tree, i, bound)) > 1e-3f && probability[i] == 0) {
+          // Only a probability below the grid's resolution may go unseen.
+          EXPECT_LT(sum, 1) << "VPL " << i;
+        }
+  }
+}
+
+TEST(Comb, LawIsPositiveWhereverAVplLightsAReceiver) {
+  TestRandom random(2);
+  std::size_t lit = 0;
+  for (int round = 0; round < 200; ++round) {
+    const bool glossy = round % 2 == 0;
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(8), 1, glossy));
+    const Tile tile = random_tile(random, 1 + random.below(60), glossy);
+    const TileLaw law(tile.receivers, {.bound = 0.7f});
+    alignas(32) LightNode::Lanes weights;
+    law.weigh(tree, 0, weights);
+    for (int lane = 0; lane < LightNode::k_width; ++lane) {
+      if (!tree.nodes[0].has_child(lane)) {
+        EXPECT_EQ(weights[lane], 0);
+        continue;
+      }
+      ASSERT_TRUE(std::isfinite(weights[lane]));
+      for (const ShadedPoint& x : tile.points)
+        if (!is_black(unshadowed(x, tree, tree.nodes[0].vpl(lane), 0.7f))) {
+          ++lit;
+          ASSERT_GT(weights[lane], 0);
+        }
+    }
+  }
+  EXPECT_GT(lit, 1000u);
+}
+
+TEST(Comb, WeightsDoNotDependOnTheUnitOfLength) {
+  TestRandom random(3);
+  constexpr float k_scale = 1024;
+  const VplSet set = random_vpls(random, 8, 1, true);
+  VplSet large = set;
+  for (Vpl& vpl : large.vpls) vpl.position = Point3() + k_scale * from_origin(vpl.position);
+  Tile tile = random_tile(random, 30, true);
+  const TileLaw law(tile.receivers, {.bound = 2});
+  for (Receiver& r : tile.receivers) r.position = Point3() + k_scale * from_origin(r.position);
+  const TileLaw large_law(tile.receivers, {.bound = 2 / (k_scale * k_scale)});
+  alignas(32) LightNode::Lanes a, b;
+  law.weigh(pairs(set), 0, a);
+  large_law.weigh(pairs(large), 0, b);
+  for (int lane = 0; lane < LightNode::k_width; ++lane)
+    EXPECT_NEAR(b[lane] * k_scale * k_scale, a[lane], 1e-4f * a[lane]);
+}
+
+/// All VPLs of a set as candidates, with random counts and probabilities.
+std::vector<Candidate> every_vpl(TestRandom& random, const VplSet& set) {
+  std::vector<Candidate> candidates;
+  for (std::uint32_t i = 0; i < set.vpls.size(); ++i)
+    candidates.push_back({i, 1 + static_cast<std::uint32_t>(random.below(3)), 0.01 + 0.5 * random.get1_double()});
+  return candidates;
+}
+
+TEST(Candidates, TargetsAreTheContributionsWhereBothLobesAreLambert) {
+  TestRandom random(4);
+  CandidateSet candidates;
+  for (int round = 0; round < 300; ++round) {
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(60)));
+    const ShadedPoint x = random_gather_point(random, 1.2f);
+    const float bound = round % 3 == 0 ? k_infinity : std::exp(6 * random.get1() - 3);
+    candidates.assign(tree.set, every_vpl(random, tree.set), 10);
+    const CandidateReceiver receiver = make_candidate_receiver({x, LobeSelection()}, 1, 5);
+    ASSERT_TRUE(receiver.lambert);
+    candidates.evaluate(receiver, bound);
+    float largest = 0;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) largest = std::max(largest, candidates.target(i));
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+      const Rgb exact = candidates.weight(i) * unshadowed(x, tree, candidates.vpl(i), bound);
+      const Rgb found = candidates.contribution(receiver, i);
+      for (const auto& [a, b] : {std::pair{exact.r, found.r}, {exact.g, found.g}, {exact.b, found.b}})
+        ASSERT_NEAR(a, b, 2e-4f * a + 1e-9f);
+      ASSERT_NEAR(candidates.target(i), k_pi * k_pi * max_channel(exact),
+                  2e-4f * k_pi * k_pi * max_channel(exact) + 2e-5f * largest);
+    }
+  }
+}
+
+TEST(Candidates, TargetsArePositiveWhereverThereIsAContribution) {
+  TestRandom random(5);
+  CandidateSet candidates;
+  std::size_t lit = 0;
+  for (int round = 0; round < 2000; ++round) {
+    VplSet one = random_vpls(random, 1, 1, true);
+    one.vpls[0].vertex = static_cast<std::uint16_t>(1 + random.below(3));
+    const ShadedPoint x = random_gather_point(random, 1.2f, true);
+    const float bound = round % 3 == 0 ? k_infinity : 1.0f;
+    candidates.assign(one, every_vpl(random, one), 10);
+    const CandidateReceiver receiver = make_candidate_receiver({x, LobeSelection()}, 1, 2);
+    candidates.evaluate(receiver, bound);
+    const Rgb exact = unshadowed_contribution({x, LobeSelection()}, {materials(), one}, one.vpls[0], bound);
+    ASSERT_TRUE(std::isfinite(candidates.target(0)));
+    if (one.vpls[0].vertex > 2) {
+      ASSERT_EQ(candidates.target(0), 0);
+    } else if (!is_black(exact)) {
+      ++lit;
+      ASSERT_GT(candidates.target(0), 0);
+    }
+  }
+  EXPECT_GT(lit, 200u);
+}
+
+TEST(Candidates, DrawsAreWhatTheProbabilitiesSay) {
+  TestRandom random(6);
+  CandidateSet candidates;
+  std::vector<CandidateDraw> draws;
+  for (int round = 0; round < 30; ++round) {
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(100), 1, round % 2 == 0));
+    const ShadedPoint x = random_gather_point(random, 1.2f, round % 2 == 0);
+    candidates.assign(tree.set, every_vpl(random, tree.set), 10);
+    candidates.evaluate(make_candidate_receiver({x, LobeSelection()}, 1, 5), 1);
+    double total = 0;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) total += static_cast<double>(candidates.target(i));
+    const int samples = 1 + static_cast<int>(random.below(20));
+    std::vector<double> mean_count(candidates.size(), 0);
+    for (int i = 0; i < k_places; ++i) {
+      candidates.choose(samples, (i + 0.5) / k_places, draws);
+      std::uint32_t drawn = 0;
+      for (const CandidateDraw& draw : draws) {
+        drawn += draw.count;
+        mean_count[draw.candidate] += static_cast<double>(draw.count) / k_places;
+        EXPECT_NEAR(draw.probability, static_cast<double>(candidates.target(draw.candidate)) / total, 1e-5);
+      }
+      EXPECT_EQ(drawn, total > 0 ? static_cast<std::uint32_t>(samples) : 0u);
+    }
+    if (total == 0) continue;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i)
+      EXPECT_NEAR(mean_count[i], samples * static_cast<double>(candidates.target(i)) / total, 1.01 / k_places + 1e-4);
+  }
+}
+
+TEST(Candidates, DegenerateSets) {
+  TestRandom random(7);
+  CandidateSet candidates;
+  std::vector<CandidateDraw> draws;
+  const ShadedPoint x = random_gather_point(random, 1);
+  candidates.assign({}, {}, 10);
+  candidates.evaluate(make_candidate_receiver({x, LobeSelection()}, 1, 5), 1);
+  candidates.choose(5, 0.5, draws);
+  EXPECT_TRUE(draws.empty());
+
+  VplSet same = random_vpls(random, 1);
+  same.vpls[0].position = x.point.position;  // in the receiver's place: contributes nothing, and is no NaN
+  same.vpls.assign(17, same.vpls[0]);
+  candidates.assign(same, every_vpl(random, same), 10);
+  candidates.evaluate(make_candidate_receiver({x, LobeSelection()}, 1, 5), k_infinity);
+  candidates.choose(5, 0.5, draws);
+  EXPECT_TRUE(draws.empty());
+  std::vector<Candidate> drawn;
+  const Receiver receiver = make_receiver({x, LobeSelection()});
+  EXPECT_EQ(draw_candidates({}, TileLaw({&receiver, 1}, {}), 8, 0.5, drawn), 0u);
+  EXPECT_TRUE(drawn.empty());
+}
+
+}  // namespace
+}  // namespace gradslc
