@@ -22,6 +22,7 @@ const std::vector<Method>& lightcut_methods() {
   static const std::vector<Method> k_methods = {
       {"vpl", "vpl", {{"vpl/light_paths", 100.0}, {"selection", "power"}, {"samples", 20.0}}},
       {"slc", "slc", {{"vpl/light_paths", 300.0}}},
+      {"slc tile", "slc", {{"gather", "tile"}, {"tile/candidates", 64.0}, {"vpl/light_paths", 300.0}}},
       {"slc, small bound", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"cut_size", 4.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}, {"cut_size", 3.0}}},
@@ -74,6 +75,7 @@ TEST(Unbiased, BentNormals) {
   expect_unbiased(test_box(k_resolution, {.bent_normals = true}), {.max_depth = 6},
                   {{"slc", "slc", {{"vpl/light_paths", 1000.0}, {"vpl/bounding", "none"}}},
                    {"slc, bounded", "slc", {{"vpl/light_paths", 300.0}}},
+                   {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 1000.0}, {"vpl/bounding", "none"}}},
                    {"gradslc", "gradslc", {{"vpl/light_paths", 1000.0}}}});
 }
 
@@ -81,6 +83,7 @@ TEST(Unbiased, BentNormals) {
 TEST(Unbiased, LampInRoughGlass) {
   expect_unbiased(test_box(k_resolution, {.glass_lamp = true}), {.max_depth = 5},
                   {{"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+                   {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 1000.0}}},
                    {"gradslc", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}}});
 }
 
@@ -89,6 +92,7 @@ void expect_unbiased_on_gloss(GlossyLight light) {
   const std::vector<Method> methods = {
       {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
       {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+      {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 1000.0}}},
       {"slc, small bound", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"cut_size", 4.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"stencil", "symmetric"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},

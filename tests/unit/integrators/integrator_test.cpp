@@ -33,6 +33,7 @@ const std::vector<Method>& every_method() {
       {"vpl", "vpl", {{"vpl/light_paths", 20.0}}},
       {"vpl power", "vpl", {{"vpl/light_paths", 100.0}, {"selection", "power"}}},
       {"slc", "slc", {{"vpl/light_paths", 300.0}}},
+      {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 300.0}}},
       {"slc, sets of 2", "slc", {{"vpl/light_paths", 300.0}, {"vpl/passes_per_set", 2.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}}},
