@@ -17,11 +17,10 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
                       PartValues& radiance) {
   const PathVertex& x = *prefix.gather;
   const LobeSelection connectable = context.lobes.only_connectable();
-  const int edges = x.edges + 1;
-  const int max_edges = std::min(context.settings.max_depth, edges + gather.max_bounces);
-  const bool looks_for_emitters = context.settings.components.includes(edges);
-  const bool goes_on =
-      context.settings.components.indirect && edges < max_edges && (gather.compensate || gather.scene_has_other_lobes);
+  const int edges = x.edges + 1, max_depth = context.settings.max_depth;
+  const bool looks_for_emitters = connection_may_count(context, edges, max_depth);
+  const bool goes_on = context.settings.components.indirect && edges < max_depth && gather.max_bounces > 0 &&
+                       (gather.compensate || gather.scene_has_other_lobes);
   if (!looks_for_emitters && !goes_on) return;
 
   const auto index = static_cast<std::uint32_t>(x.edges);
@@ -31,27 +30,23 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   const Rgb f_x = x.bsdf.eval(x.wo, sample->direction, connectable);
   const Vec3 wi = x.to_world(sample->direction);
   const Ray ray = spawn_ray(x.point, wi, ray_length(sample->direction, f_x, gather, looks_for_emitters));
-  ++context.rays;
-  const auto hit = context.scene.intersect(ray);
-
   auto throughput =
       LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
   RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
-  if (looks_for_emitters)
-    throughput.collect(hit ? emitted_radiance(context, *hit, -wi, origin) : environment_radiance(context, wi, origin),
-                       radiance);
-  if (!hit || !goes_on) return;
+  const auto y = next_vertex(context, ray, origin, x.edges, max_depth, throughput, radiance);
+  if (!y || !goes_on) return;
 
-  const PathVertex y = make_path_vertex(context.scene, *hit, -wi, edges);
   const Compensation compensation{
-      connection_strength(k_pi * max_channel(f_x), 1, sample->direction.z, dot(wi, y.point.geometric_normal),
-                          distance_squared(x.point.position, y.point.position)),
+      connection_strength(k_pi * max_channel(f_x), 1, sample->direction.z, dot(wi, y->point.geometric_normal),
+                          distance_squared(x.point.position, y->point.position)),
       gather.compensate ? gather.bound : k_infinity};
-  const bool compensates = compensation.factor * y.bsdf.max_connectable_pi_f(y.wo, context.lobes) > compensation.bound;
-  if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
+  const bool compensates =
+      compensation.factor * y->bsdf.max_connectable_pi_f(y->wo, context.lobes) > compensation.bound;
+  if (!compensates && !y->bsdf.has(context.lobes.only_other())) return;
+  const int max_edges = std::min(max_depth, y->edges + gather.max_bounces);
   Ray next;
-  if (scatter(context, y, &compensation, throughput, next, origin, radiance))
-    trace_path(context, next, origin, throughput, edges, max_edges, 0, radiance);
+  if (scatter(context, *y, max_edges, &compensation, throughput, next, origin, radiance))
+    trace_path(context, next, origin, throughput, y->edges, max_edges, 0, radiance);
 }
 
 }  // namespace
@@ -72,10 +67,8 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
 
 void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                          PartValues& radiance) {
-  const PathVertex& x = *prefix.gather;
-  if (context.settings.components.includes(x.edges + 1))
-    add_next_event(context, x, context.lobes.only_connectable(), LabelledThroughput::camera_path(prefix.throughput),
-                   nullptr, radiance);
+  add_next_event(context, *prefix.gather, context.lobes.only_connectable(), context.settings.max_depth,
+                 LabelledThroughput::camera_path(prefix.throughput), nullptr, radiance);
   add_compensation(context, prefix, gather, radiance);
 }
 

@@ -27,6 +27,7 @@ enum class Use : std::uint16_t {
   descent,             ///< descent from a node of the cut; index = node of the cut and level
   vpl_choice,          ///< uniform or power sampling of VPLs
   group_offset,        ///< offset of the blocks or tiles of a pass
+  crossing,            ///< whether a path passes straight through a surface or is scattered
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };
