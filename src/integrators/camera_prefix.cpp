@@ -32,27 +32,28 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   auto throughput = LabelledThroughput::camera_path(Rgb(1));
   const int max_edges = context.settings.max_depth;
   int edges = 0;
-  while (const auto vertex = next_vertex(context, ray, origin, edges, max_edges, throughput, prefix.radiance)) {
-    edges = vertex->edges;
+  while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, prefix.radiance)) {
+    const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (passes_on(context, vertex, throughput, ray, origin)) continue;
     const auto index = static_cast<std::uint32_t>(edges);
-    const LobeChoice choice = choose_lobe(*vertex, context.lobes, context.random.get1(Use::lobe, index));
+    const LobeChoice choice = choose_lobe(vertex, context.lobes, context.random.get1(Use::lobe, index));
     if (choice.probability == 0) break;
     throughput = throughput.scaled(1 / choice.probability);
     if (choice.connectable) {
-      prefix.gather = *vertex;
+      prefix.gather = vertex;
       prefix.throughput = throughput.prefix;
       break;
     }
 
     const LobeSelection others = context.lobes.only_other();
-    add_next_event(context, *vertex, others, max_edges, throughput, nullptr, prefix.radiance);
+    add_next_event(context, vertex, others, max_edges, throughput, nullptr, prefix.radiance);
     const auto sample =
-        vertex->bsdf.sample(vertex->wo, choice.remapped, context.random.get2(Use::direction, index), others);
+        vertex.bsdf.sample(vertex.wo, choice.remapped, context.random.get2(Use::direction, index), others);
     if (!sample) break;
     throughput = throughput.scattered({Rgb(), sample->weight});
     if (throughput.is_black()) break;
-    ray = spawn_ray(vertex->point, vertex->to_world(sample->direction));
-    origin = {vertex->point.position, sample->pdf_solid_angle, sample->delta};
+    ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
+    origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
   }
   return prefix;
 }

@@ -58,8 +58,8 @@ struct Compensation {
   float weight(Rgb f_y) const { return compensation_weight(factor * k_pi * max_channel(f_y), bound); }
 };
 
-/// A point of a path that scatters. What the path passes straight through is no vertex of it, but counts as an edge
-/// (crossings, DESIGN 2).
+/// A point of a path. One that the path passes straight through, a crossing, counts for the edges and is no scattering
+/// event (DESIGN 2).
 struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
 };
@@ -124,36 +124,38 @@ Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 w
 /// The same for a ray that leaves the scene in `direction`.
 Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin);
 
-/// Follows `ray` through crossings to the next vertex that scatters: at each surface the path either passes straight on
-/// or is scattered there, one of them drawn (Bsdf::pass_probability()). Adds what emitters on the way bring. `edges`:
-/// of the path so far, not counting `ray`. nullopt: the path ends, at the latest with `max_edges` edges.
+/// Traces a path's next edge, counts it in `edges` and adds what an emitter at its end brings. The surface there;
+/// nullopt where the path ends, at the latest with `max_edges` edges.
 template <class Throughput>
-std::optional<PathVertex> next_vertex(PathContext& context, Ray ray, RayOrigin origin, int edges, int max_edges,
-                                      Throughput& throughput, PartValues& radiance) {
-  std::optional<PathVertex> vertex;
-  while (edges < max_edges) {
-    ++context.rays;
-    const auto hit = context.scene.intersect(ray);
-    ++edges;
-    if (context.settings.components.includes(edges))
-      throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
-                             : environment_radiance(context, ray.direction, origin),
-                         radiance);
-    if (!hit || edges == max_edges) break;
+std::optional<SurfacePoint> next_hit(PathContext& context, const Ray& ray, const RayOrigin& origin, int& edges,
+                                     int max_edges, const Throughput& throughput, PartValues& radiance) {
+  if (edges >= max_edges) return std::nullopt;
+  ++context.rays;
+  ++edges;
+  auto hit = context.scene.intersect(ray);
+  if (context.settings.components.includes(edges))
+    throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+                           : environment_radiance(context, ray.direction, origin),
+                       radiance);
+  if (edges == max_edges) hit.reset();
+  return hit;
+}
 
-    vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
-    const float pass = vertex->bsdf.pass_probability(vertex->wo);
-    if (pass == 0) return vertex;
-    if (context.random.get1(Use::crossing, static_cast<std::uint32_t>(edges)) >= pass) {
-      throughput = throughput.scaled(1 / (1 - pass));
-      return vertex;
-    }
-    throughput = throughput.transmitted(vertex->bsdf.straight_transmittance() / pass);
-    origin.pdf_solid_angle *= pass;
-    ray = pass_on(ray, *hit);
-    vertex.reset();
+/// Draws whether a path passes straight through the surface that it has come to (Bsdf::pass_probability()): then its
+/// ray goes on behind, and `origin` stays the last vertex that scattered. False: it is to be scattered there.
+template <class Throughput>
+bool passes_on(const PathContext& context, const PathVertex& vertex, Throughput& throughput, Ray& ray,
+               RayOrigin& origin) {
+  const float pass = vertex.bsdf.pass_probability(vertex.wo);
+  if (pass == 0) return false;
+  if (context.random.get1(Use::crossing, static_cast<std::uint32_t>(vertex.edges)) >= pass) {
+    throughput = throughput.scaled(1 / (1 - pass));
+    return false;
   }
-  return vertex;
+  throughput = throughput.transmitted(vertex.bsdf.straight_transmittance() / pass);
+  origin.pdf_solid_angle *= pass;
+  ray = pass_on(ray, vertex.point);
+  return true;
 }
 
 /// Next-event estimation at a vertex, then a sampled direction: updates throughput, ray and origin. False: the path
@@ -190,9 +192,10 @@ bool survives(const PathContext& context, int edges, Throughput& throughput) {
 template <class Throughput>
 void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput throughput, int edges, int max_edges,
                 int roulette_depth, PartValues& radiance) {
-  while (const auto vertex = next_vertex(context, ray, origin, edges, max_edges, throughput, radiance)) {
-    if (!scatter(context, *vertex, max_edges, nullptr, throughput, ray, origin, radiance)) return;
-    edges = vertex->edges;
+  while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, radiance)) {
+    const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (passes_on(context, vertex, throughput, ray, origin)) continue;
+    if (!scatter(context, vertex, max_edges, nullptr, throughput, ray, origin, radiance)) return;
     if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;
   }
 }
