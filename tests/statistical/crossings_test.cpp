@@ -37,21 +37,23 @@ const std::vector<Method>& methods() {
   return k_methods;
 }
 
-// A white floor in a box of gauze that scatters nothing and lets 0.6 pass, under a sky of radiance 1: next-event
-// estimation from the floor crosses it once, D = 3; the camera inside sees the floor without a crossing, one outside
-// with one more.
-Scene gauze_tent(bool camera_outside) {
+// A grey floor in a box of gauze that lets 0.6 pass, under a sky of radiance 1: next-event estimation from the floor
+// crosses it once, D = 3; the camera inside sees the floor without a crossing, one outside with one more. What the
+// gauze reflects on its inner side stays inside: it has an albedo of `inner_albedo` there, and brings light with D
+// >= 4.
+Scene gauze_tent(bool camera_outside, double inner_albedo) {
   const std::string text = fmt::format(
       R"(<scene version="3.0.0">
     <sensor type="perspective"><float name="fov" value="{}"/>
       <transform name="to_world"><lookat origin="0, {}, 0" target="0, 0, 0" up="0, 0, 1"/></transform></sensor>
     <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/></transform>
       <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
-    <shape type="cube"><transform name="to_world"><scale value="2"/></transform>
+    <shape type="cube"><boolean name="flip_normals" value="true"/>
+      <transform name="to_world"><scale value="2"/></transform>
       <bsdf type="mask"><float name="opacity" value="0.4"/>
-        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>
+        <bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf></bsdf></shape>
     <emitter type="constant"><rgb name="radiance" value="1"/></emitter></scene>)",
-      camera_outside ? 10 : 40, camera_outside ? 8 : 1.5);
+      camera_outside ? 10 : 40, camera_outside ? 8 : 1.5, inner_albedo);
   return Scene(load_scene_text(text, "gauze_tent.xml", {.width = 8, .height = 8}));
 }
 
@@ -62,6 +64,7 @@ TEST(Crossings, CountAsEdgesAndTakeTheirShareOnce) {
     int max_depth;
     Components components;
     double expected;
+    double inner_albedo = 0;
   };
   const double one = k_albedo * k_transmittance, two = one * k_transmittance;
   const Case cases[] = {
@@ -73,14 +76,17 @@ TEST(Crossings, CountAsEdgesAndTakeTheirShareOnce) {
       {true, 3, {}, 0},
       {true, 4, {}, two},
       {true, 6, k_indirect, two},
+      // Paths pass with probability 0.6 / (0.6 + 0.4), which the weights of both techniques have to know.
+      {false, 3, {}, one, 1},
+      {false, 3, k_indirect, one, 1},
   };
   for (const Case& c : cases)
     for (const Method& method : {k_path_tracing, methods()[1], methods()[3]}) {
       const std::string label =
           fmt::format("{}, camera {}, depth {}", method.label, c.camera_outside ? "outside" : "inside", c.max_depth);
-      const auto moments =
-          block_moments(method, gauze_tent(c.camera_outside), {.max_depth = c.max_depth, .components = c.components},
-                        {.runs = 40, .passes = 8, .block = 8, .seed = 9});
+      const auto moments = block_moments(method, gauze_tent(c.camera_outside, c.inner_albedo),
+                                         {.max_depth = c.max_depth, .components = c.components},
+                                         {.runs = 40, .passes = 8, .block = 8, .seed = 9});
       const Moments& image = moments.blocks.at(Quantity::image)[0];
       if (c.expected == 0) {
         EXPECT_EQ(image.mean(), 0) << label;
