@@ -25,38 +25,33 @@ LobeChoice choose_lobe(const PathVertex& vertex, const LobeSelection& lobes, flo
 
 CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   CameraPrefix prefix;
-  Rgb throughput(1);
   const PerspectiveCamera& camera = context.scene.camera();
   Ray ray =
       camera.has_lens() ? camera.generate_ray(position, context.random.get2(Use::lens)) : camera.generate_ray(position);
   RayOrigin origin{.position = ray.origin};
-  for (int edges = 1; edges <= context.settings.max_depth; ++edges) {
-    ++context.rays;
-    const auto hit = context.scene.intersect(ray);
-    if (context.settings.components.includes(edges))
-      prefix.radiance[Part::prefix] += throughput * (hit ? emitted_radiance(context, *hit, -ray.direction, origin)
-                                                         : environment_radiance(context, ray.direction, origin));
-    if (!hit || edges == context.settings.max_depth) break;
-
+  auto throughput = LabelledThroughput::camera_path(Rgb(1));
+  const int max_edges = context.settings.max_depth;
+  int edges = 0;
+  while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, prefix.radiance)) {
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (passes_on(context, vertex, throughput, ray, origin)) continue;
     const auto index = static_cast<std::uint32_t>(edges);
     const LobeChoice choice = choose_lobe(vertex, context.lobes, context.random.get1(Use::lobe, index));
     if (choice.probability == 0) break;
-    throughput *= 1 / choice.probability;
+    throughput = throughput.scaled(1 / choice.probability);
     if (choice.connectable) {
       prefix.gather = vertex;
-      prefix.throughput = throughput;
+      prefix.throughput = throughput.prefix;
       break;
     }
 
     const LobeSelection others = context.lobes.only_other();
-    if (context.settings.components.includes(edges + 1))
-      add_next_event(context, vertex, others, LabelledThroughput::camera_path(throughput), nullptr, prefix.radiance);
+    add_next_event(context, vertex, others, max_edges, throughput, nullptr, prefix.radiance);
     const auto sample =
         vertex.bsdf.sample(vertex.wo, choice.remapped, context.random.get2(Use::direction, index), others);
     if (!sample) break;
-    throughput *= sample->weight;
-    if (is_black(throughput)) break;
+    throughput = throughput.scattered({Rgb(), sample->weight});
+    if (throughput.is_black()) break;
     ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
     origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
   }

@@ -34,11 +34,12 @@ Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tr
   Rgb sum;
   for (const ChosenVpl& choice : chosen) {
     const Vpl& vpl = vpls[choice.vpl];
-    if (!vpl_counts(context, x, vpl.vertex)) continue;
+    if (!vpl_may_count(context, x, vpl)) continue;
     const Rgb contribution = unshadowed_contribution(point, vpls, vpl, bound);
     if (is_black(contribution)) continue;
-    ++context.rays;
-    if (!context.scene.occluded(connection_segment(point, vpl))) sum += contribution * choice.inverse_probability;
+    const Rgb transmittance =
+        connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    sum += contribution * transmittance * choice.inverse_probability;
   }
   return sum;
 }

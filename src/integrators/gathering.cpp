@@ -13,15 +13,39 @@ float ray_length(Vec3 wi, Rgb f_x, const GatherSettings& gather, bool looks_for_
   return k_margin * compensation_reach(k_pi * max_channel(f_x), wi.z, gather.max_pi_f, gather.bound);
 }
 
+/// A ray sampled through f_c(x), and the value of f_c(x) along it.
+struct GatherRay {
+  Ray ray;
+  BsdfSample sample;
+  Rgb f_x;
+};
+
+/// What the ray through f_c(x) brings from y, the next vertex that scatters: f_s(y) with weight 1, f_c(y) with the
+/// weight that bounding leaves over.
+void add_reflected(PathContext& context, const PathVertex& x, const PathVertex& y, const GatherRay& gathered,
+                   const GatherSettings& gather, LabelledThroughput throughput, PartValues& radiance) {
+  const Compensation compensation{connection_strength(k_pi * max_channel(gathered.f_x), 1, gathered.sample.direction.z,
+                                                      dot(gathered.ray.direction, y.point.geometric_normal),
+                                                      distance_squared(x.point.position, y.point.position)),
+                                  gather.compensate ? gather.bound : k_infinity};
+  const bool compensates =
+      compensation.factor * y.bsdf.connectable_value_bound(y.wo, context.lobes).max() > compensation.bound;
+  if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
+  const int max_edges = std::min(context.settings.max_depth, y.edges + gather.max_bounces);
+  Ray next;
+  RayOrigin origin;
+  if (scatter(context, y, max_edges, &compensation, throughput, next, origin, radiance))
+    trace_path(context, next, origin, throughput, y.edges, max_edges, 0, radiance);
+}
+
 void add_compensation(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                       PartValues& radiance) {
   const PathVertex& x = *prefix.gather;
   const LobeSelection connectable = context.lobes.only_connectable();
-  const int edges = x.edges + 1;
-  const int max_edges = std::min(context.settings.max_depth, edges + gather.max_bounces);
-  const bool looks_for_emitters = context.settings.components.includes(edges);
-  const bool goes_on =
-      context.settings.components.indirect && edges < max_edges && (gather.compensate || gather.scene_has_other_lobes);
+  const int max_depth = context.settings.max_depth;
+  const bool looks_for_emitters = connection_may_count(context, x.edges + 1, max_depth);
+  const bool goes_on = context.settings.components.indirect && x.edges + 1 < max_depth && gather.max_bounces > 0 &&
+                       (gather.compensate || gather.scene_has_other_lobes);
   if (!looks_for_emitters && !goes_on) return;
 
   const auto index = static_cast<std::uint32_t>(x.edges);
@@ -29,30 +53,21 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   const auto sample = x.bsdf.sample(x.wo, u_lobe, context.random.get2(Use::compensation, index), connectable);
   if (!sample) return;
   const Rgb f_x = x.bsdf.eval(x.wo, sample->direction, connectable);
-  const Vec3 wi = x.to_world(sample->direction);
-  const Ray ray = spawn_ray(x.point, wi, ray_length(sample->direction, f_x, gather, looks_for_emitters));
-  ++context.rays;
-  const auto hit = context.scene.intersect(ray);
+  const float length = ray_length(sample->direction, f_x, gather, looks_for_emitters);
+  const GatherRay gathered{spawn_ray(x.point, x.to_world(sample->direction), length), *sample, f_x};
 
   auto throughput =
       LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
   RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
-  if (looks_for_emitters)
-    throughput.collect(hit ? emitted_radiance(context, *hit, -wi, origin) : environment_radiance(context, wi, origin),
-                       radiance);
-  if (!hit || !goes_on) return;
-
-  const PathVertex y = make_path_vertex(context.scene, *hit, -wi, edges);
-  const Compensation compensation{
-      connection_strength(k_pi * max_channel(f_x), 1, sample->direction.z, dot(wi, y.point.geometric_normal),
-                          distance_squared(x.point.position, y.point.position)),
-      gather.compensate ? gather.bound : k_infinity};
-  const bool compensates =
-      compensation.factor * y.bsdf.connectable_value_bound(y.wo, context.lobes).max() > compensation.bound;
-  if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
-  Ray next;
-  if (scatter(context, y, &compensation, throughput, next, origin, radiance))
-    trace_path(context, next, origin, throughput, edges, max_edges, 0, radiance);
+  Ray ray = gathered.ray;
+  int edges = x.edges;
+  while (const auto hit = next_hit(context, ray, origin, edges, max_depth, throughput, radiance)) {
+    if (!goes_on && !context.scene.has_crossings()) return;
+    const PathVertex y = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (passes_on(context, y, throughput, ray, origin)) continue;
+    if (goes_on) add_reflected(context, x, y, gathered, gather, throughput, radiance);
+    return;
+  }
 }
 
 }  // namespace
@@ -73,10 +88,8 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
 
 void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                          PartValues& radiance) {
-  const PathVertex& x = *prefix.gather;
-  if (context.settings.components.includes(x.edges + 1))
-    add_next_event(context, x, context.lobes.only_connectable(), LabelledThroughput::camera_path(prefix.throughput),
-                   nullptr, radiance);
+  add_next_event(context, *prefix.gather, context.lobes.only_connectable(), context.settings.max_depth,
+                 LabelledThroughput::camera_path(prefix.throughput), nullptr, radiance);
   add_compensation(context, prefix, gather, radiance);
 }
 

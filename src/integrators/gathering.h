@@ -16,10 +16,11 @@ struct GatherSettings {
 };
 GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth);
 
-/// Whether light over `bounces` vertices from x's next one counts: D = edges + 1 + k.
-inline bool vpl_counts(const PathContext& context, const PathVertex& x, std::uint32_t k) {
-  const int edges = x.edges + 1 + static_cast<int>(k);
-  return edges <= context.settings.max_depth && context.settings.components.includes(edges);
+/// D = p + 1 + k of the paths that connect x with a VPL, without the crossings between them.
+inline int connection_edges(const PathVertex& x, const Vpl& y) { return x.edges + 1 + static_cast<int>(y.vertex); }
+/// Whether they can count, whatever the connection crosses.
+inline bool vpl_may_count(const PathContext& context, const PathVertex& x, const Vpl& y) {
+  return connection_may_count(context, connection_edges(x, y), context.settings.max_depth);
 }
 
 /// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the one ray

@@ -21,10 +21,23 @@ std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& 
   return NextEvent{*light, vertex.to_local(light->wi)};
 }
 
-bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light) {
-  ++context.rays;
+Ray shadow_ray(const SurfacePoint& from, const DirectSample& light) {
   const Point3 start = offset_position(from, light.wi);
-  return !context.scene.occluded(light.infinite ? Ray{start, light.wi} : segment(start, light.position));
+  return light.infinite ? Ray{start, light.wi} : segment(start, light.position);
+}
+
+bool connection_may_count(const PathContext& context, int edges, int max_edges) {
+  if (edges > max_edges) return false;
+  const Components& components = context.settings.components;
+  if (components.includes(edges)) return true;
+  return context.scene.has_crossings() && edges < max_edges && components.includes(edges + 1);
+}
+
+Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) {
+  Passage passage = context.scene.passage(ray, max_edges - edges);
+  context.rays += static_cast<std::uint64_t>(passage.rays);
+  if (!context.settings.components.includes(edges + passage.crossings)) passage.transmittance = Rgb();
+  return passage;
 }
 
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,

@@ -44,8 +44,8 @@ inline float power_heuristic(float pdf, float other_pdf) {
 
 /// How a ray was made: what weighs the emitter that it may hit against next-event estimation.
 struct RayOrigin {
-  Point3 position;                   ///< of the last vertex that scatters
-  float pdf_solid_angle = 0;         ///< with which the ray's direction was sampled
+  Point3 position;            ///< of the last vertex that scatters
+  float pdf_solid_angle = 0;  ///< with which the ray's direction was sampled, and all crossings since were passed
   bool emission_only_by_hit = true;  ///< camera rays and delta lobes: next-event estimation cannot find the emitter
 };
 
@@ -58,7 +58,8 @@ struct Compensation {
   float weight(Rgb f_y) const { return compensation_weight(factor * k_pi * max_channel(f_y), bound); }
 };
 
-/// A point of a path.
+/// A point of a path. One that the path passes straight through, a crossing, counts for the edges and is no scattering
+/// event (DESIGN 2).
 struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
 };
@@ -74,7 +75,21 @@ struct NextEvent {
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
 /// not tested.
 std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex);
-bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light);
+/// The shadow ray of that choice.
+Ray shadow_ray(const SurfacePoint& from, const DirectSample& light);
+
+/// Whether light can count over a path whose last connection makes `edges` edges of it (>= 2, at most `max_edges`
+/// count), and one more for each crossing on it.
+bool connection_may_count(const PathContext& context, int edges, int max_edges);
+/// What gets along the connection; black where nothing does, or where the path with its crossings does not count.
+/// `edges`: without crossings, at most max_edges.
+Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges);
+/// Share of light that gets along the segment between a camera path's vertex and a light path's; black where it is
+/// blocked, or where the whole path does not count. `edges`: D = p + 1 + k of the path without the segment's crossings,
+/// at most settings.max_depth.
+inline Rgb connection_transmittance(PathContext& context, const Ray& segment, int edges) {
+  return connect(context, segment, edges, context.settings.max_depth).transmittance;
+}
 
 /// Splits the value of the selected lobes towards wi; each times |cos| over pdf.
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
@@ -83,19 +98,25 @@ LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angl
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
                          const Compensation* compensation);
 
-/// Next-event estimation at a vertex with multiple importance sampling against a ray sampled from the same lobes: adds
-/// to `radiance`. Paths of vertex.edges + 1 edges; the caller has checked that these count.
+/// Next-event estimation at a vertex, through crossings, with multiple importance sampling against a ray sampled from
+/// the same lobes: adds to `radiance` what counts of paths with at most `max_edges` edges.
 template <class Throughput>
-void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes,
+void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes, int max_edges,
                     const Throughput& throughput, const Compensation* compensation, PartValues& radiance) {
+  if (!connection_may_count(context, vertex.edges + 1, max_edges)) return;
   const auto event = choose_emitter(context, vertex);
   if (!event) return;
   const float pdf = event->light.pdf_solid_angle;
   const Throughput scattered = throughput.scattered(lobe_weights(vertex, event->wi, pdf, lobes, compensation));
-  if (scattered.is_black() || !is_visible(context, vertex.point, event->light)) return;
+  if (scattered.is_black()) return;
+  const Passage passage = connect(context, shadow_ray(vertex.point, event->light), vertex.edges + 1, max_edges);
+  if (is_black(passage.transmittance)) return;
+  // The sampled ray reaches the emitter if it also passes all crossings.
   const float mis =
-      event->light.delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes));
-  scattered.scaled(mis).collect(event->light.radiance, radiance);
+      event->light.delta
+          ? 1
+          : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes) * passage.probability);
+  scattered.transmitted(passage.transmittance).scaled(mis).collect(event->light.radiance, radiance);
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
@@ -103,14 +124,47 @@ Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 w
 /// The same for a ray that leaves the scene in `direction`.
 Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin);
 
+/// Traces a path's next edge, counts it in `edges` and adds what an emitter at its end brings. The surface there;
+/// nullopt where the path ends, at the latest with `max_edges` edges.
+template <class Throughput>
+std::optional<SurfacePoint> next_hit(PathContext& context, const Ray& ray, const RayOrigin& origin, int& edges,
+                                     int max_edges, const Throughput& throughput, PartValues& radiance) {
+  if (edges >= max_edges) return std::nullopt;
+  ++context.rays;
+  ++edges;
+  auto hit = context.scene.intersect(ray);
+  if (context.settings.components.includes(edges))
+    throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+                           : environment_radiance(context, ray.direction, origin),
+                       radiance);
+  if (edges == max_edges) hit.reset();
+  return hit;
+}
+
+/// Draws whether a path passes straight through the surface that it has come to (Bsdf::pass_probability()): then its
+/// ray goes on behind, and `origin` stays the last vertex that scattered. False: it is to be scattered there.
+template <class Throughput>
+bool passes_on(const PathContext& context, const PathVertex& vertex, Throughput& throughput, Ray& ray,
+               RayOrigin& origin) {
+  const float pass = vertex.bsdf.pass_probability(vertex.wo);
+  if (pass == 0) return false;
+  if (context.random.get1(Use::crossing, static_cast<std::uint32_t>(vertex.edges)) >= pass) {
+    throughput = throughput.scaled(1 / (1 - pass));
+    return false;
+  }
+  throughput = throughput.transmitted(vertex.bsdf.straight_transmittance() / pass);
+  origin.pdf_solid_angle *= pass;
+  ray = pass_on(ray, vertex.point);
+  return true;
+}
+
 /// Next-event estimation at a vertex, then a sampled direction: updates throughput, ray and origin. False: the path
 /// ends.
 template <class Throughput>
-bool scatter(PathContext& context, const PathVertex& vertex, const Compensation* compensation, Throughput& throughput,
-             Ray& ray, RayOrigin& origin, PartValues& radiance) {
+bool scatter(PathContext& context, const PathVertex& vertex, int max_edges, const Compensation* compensation,
+             Throughput& throughput, Ray& ray, RayOrigin& origin, PartValues& radiance) {
   const LobeSelection& lobes = context.lobes;
-  if (context.settings.components.includes(vertex.edges + 1))
-    add_next_event(context, vertex, lobes, throughput, compensation, radiance);
+  add_next_event(context, vertex, lobes, max_edges, throughput, compensation, radiance);
 
   const auto index = static_cast<std::uint32_t>(vertex.edges);
   const float u_lobe = context.random.get1(Use::lobe, index);
@@ -133,24 +187,15 @@ bool survives(const PathContext& context, int edges, Throughput& throughput) {
 }
 
 /// Follows a path from `ray` to its end, adding all light that arrives with at most `max_edges` edges in components
-/// that count. `edges`: of the path so far, not counting `ray`. `first_hit`: what lies on the ray, if the caller has
-/// traced it. Path tracing with next-event estimation (Kajiya 1986) and multiple importance sampling, without Russian
-/// roulette before `roulette_depth` edges (0: never).
+/// that count. `edges`: of the path so far, not counting `ray`. Path tracing with next-event estimation (Kajiya 1986)
+/// and multiple importance sampling, without Russian roulette before `roulette_depth` edges (0: never).
 template <class Throughput>
 void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput throughput, int edges, int max_edges,
                 int roulette_depth, PartValues& radiance) {
-  while (edges < max_edges) {
-    ++context.rays;
-    const auto hit = context.scene.intersect(ray);
-    ++edges;
-    if (context.settings.components.includes(edges))
-      throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
-                             : environment_radiance(context, ray.direction, origin),
-                         radiance);
-    if (!hit || edges == max_edges) return;
-
+  while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, radiance)) {
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
-    if (!scatter(context, vertex, nullptr, throughput, ray, origin, radiance)) return;
+    if (passes_on(context, vertex, throughput, ray, origin)) continue;
+    if (!scatter(context, vertex, max_edges, nullptr, throughput, ray, origin, radiance)) return;
     if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;
   }
 }

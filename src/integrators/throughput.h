@@ -16,6 +16,8 @@ struct PlainThroughput {
 
   PlainThroughput scattered(const LobeWeights& w) const { return {value * w.total()}; }
   PlainThroughput scaled(float s) const { return {value * s}; }
+  /// Past crossings: the parts stay what they are.
+  PlainThroughput transmitted(Rgb transmittance) const { return {value * transmittance}; }
   bool is_black() const { return gradslc::is_black(value); }
   float largest() const { return max_channel(value); }
   /// Adds light that arrives through this throughput; all of it is booked as one part.
@@ -38,6 +40,7 @@ struct LabelledThroughput {
             specular * w.total() + gathered * w.other, vpl_part};
   }
   LabelledThroughput scaled(float s) const { return {prefix * s, gathered * s, vpl * s, specular * s, vpl_part}; }
+  LabelledThroughput transmitted(Rgb t) const { return {prefix * t, gathered * t, vpl * t, specular * t, vpl_part}; }
   bool is_black() const {
     return gradslc::is_black(prefix) && gradslc::is_black(gathered) && gradslc::is_black(vpl) &&
            gradslc::is_black(specular);

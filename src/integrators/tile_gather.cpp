@@ -29,9 +29,10 @@ Rgb TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
             ? candidates_.contribution(receiver, draw.candidate)
             : candidates_.weight(draw.candidate) * unshadowed_contribution(point, vpls_, vpl, bound_);
     if (is_black(contribution)) continue;
-    ++context.rays;
-    if (context.scene.occluded(connection_segment(point, vpl))) continue;
-    sum += contribution * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
+    const Rgb transmittance =
+        connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    if (is_black(transmittance)) continue;
+    sum += contribution * transmittance * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
   }
   return sum;
 }

@@ -90,12 +90,11 @@ class VplSampler final : public Integrator {
   }
 
   Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, const Vpl& vpl) const {
-    if (!vpl_counts(context, x, vpl.vertex)) return Rgb();
+    if (!vpl_may_count(context, x, vpl)) return Rgb();
     const GatherPoint point{x, context.lobes};
     const Rgb contribution = unshadowed_contribution(point, {context.scene.materials(), set}, vpl, gather_.bound);
     if (is_black(contribution)) return Rgb();
-    ++context.rays;
-    return context.scene.occluded(connection_segment(point, vpl)) ? Rgb() : contribution;
+    return contribution * connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
   }
 
   Selection selection_ = Selection::all;

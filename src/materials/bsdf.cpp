@@ -42,6 +42,7 @@ struct Choice {
 
 void Bsdf::add(const Bsdf& other, Rgb weight) {
   for (const Entry& entry : other.entries_) entries_.push_back({entry.lobe, entry.weight * weight});
+  straight_transmittance_ += other.straight_transmittance_ * weight;
 }
 
 Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
@@ -142,12 +143,10 @@ bool Bsdf::transmits(const LobeSelection& lobes) const {
   });
 }
 
-Rgb Bsdf::straight_transmittance(Vec3 direction) const {
-  Rgb sum;
-  for (const Entry& entry : entries_)
-    if (const auto* straight = std::get_if<StraightTransmission>(&entry.lobe))
-      sum += entry.weight * straight->energy(direction);
-  return sum;
+float Bsdf::pass_probability(Vec3 known) const {
+  const float passes = max_channel(straight_transmittance_);
+  if (passes == 0) return 0;
+  return passes / (passes + energy(known, LobeSelection()));
 }
 
 std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) const {
@@ -162,7 +161,7 @@ std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) 
 }
 
 Rgb Bsdf::albedo() const {
-  Rgb sum;
+  Rgb sum = straight_transmittance_;
   for (const Entry& entry : entries_)
     sum += entry.weight * std::visit([](const auto& lobe) { return lobe.feature_albedo(); }, entry.lobe);
   return sum;

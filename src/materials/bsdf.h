@@ -14,7 +14,6 @@
 #include "materials/lobes/rough_dielectric.h"
 #include "materials/lobes/smooth_dielectric.h"
 #include "materials/lobes/specular_reflection.h"
-#include "materials/lobes/straight_transmission.h"
 
 namespace gradslc {
 
@@ -31,13 +30,13 @@ namespace gradslc {
 ///   max_pi_f(known)              an upper bound of pi f over the other direction, largest channel, finite,
 ///   gloss_bound(known)           where it has a peak: the same, by direction.
 using Lobe = std::variant<Lambert, OrenNayar, SmoothCoatedDiffuse, RoughCoatedDiffuse, SmoothConductor, SmoothCoat,
-                          ThinPaneReflection, StraightTransmission, SmoothDielectric, RoughConductor, RoughCoat,
-                          RoughDielectric>;
+                          ThinPaneReflection, SmoothDielectric, RoughConductor, RoughCoat, RoughDielectric>;
 
 /// A BSDF at one surface point, its textures looked up: a plain value, the sum of its lobes. Directions are unit, in
 /// the local frame whose +z is the shading normal, and point away from the surface: `wo` towards where light goes (the
 /// camera), `wi` towards where it comes from. Every function takes the lobes that it speaks of (DESIGN 4:
-/// f = f_c + f_s).
+/// f = f_c + f_s). Beside the lobes it has a share that passes straight through, which is no scattering and in none of
+/// them: a crossing (DESIGN 2).
 class Bsdf {
  public:
   static constexpr std::size_t k_max_lobes = 8;
@@ -48,8 +47,9 @@ class Bsdf {
 
   /// At most k_max_lobes.
   void add(const Lobe& lobe, Rgb weight = Rgb(1)) { entries_.push_back({lobe, weight}); }
-  /// All lobes of another BSDF in the same frame, each times `weight`.
+  /// All lobes and the straight transmittance of another BSDF in the same frame, times `weight`.
   void add(const Bsdf& other, Rgb weight);
+  void add_straight_transmittance(Rgb transmittance) { straight_transmittance_ += transmittance; }
 
   /// f, 1/sr, without the cosine, as radiance is scattered from wi to wo; 0 for delta lobes.
   Rgb eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
@@ -69,18 +69,23 @@ class Bsdf {
   bool has(const LobeSelection& lobes) const;
   /// Whether any of the selected lobes scatters to the other side.
   bool transmits(const LobeSelection& lobes) const;
-  /// Share of the light that passes straight through (masks, thin panes), for rays in either sense along `direction`.
-  Rgb straight_transmittance(Vec3 direction) const;
+  /// Share of the light that passes straight through (masks, thin panes), in either sense along the direction that the
+  /// surface was shaded for.
+  Rgb straight_transmittance() const { return straight_transmittance_; }
+  /// Probability with which a path that comes by `known`, the direction that the surface was shaded for, passes
+  /// straight on instead of being scattered: in proportion to energy. 0 only where nothing passes.
+  float pass_probability(Vec3 known) const;
   /// pi f of the connectable lobes where that is the same for all directions on the known one's side: Lambertian
   /// ones only. nullopt elsewhere.
   std::optional<Rgb> lambert_albedo(Vec3 known, const LobeSelection& lobes) const;
-  /// Sum of the lobes' colours: the feature of denoisers.
+  /// Sum of the lobes' colours and of what passes straight through: the feature of denoisers.
   Rgb albedo() const;
 
   const auto& entries() const { return entries_; }
 
  private:
   boost::container::static_vector<Entry, k_max_lobes> entries_;
+  Rgb straight_transmittance_;
 };
 static_assert(sizeof(Bsdf::Entry) <= 80, "BSDFs are copied for each hit");
 

@@ -31,7 +31,7 @@ class Material {
   /// Adds its lobes to shading.bsdf and turns shading.frame, the surface's shading frame, where it bends normals or is
   /// two-sided. `known`: unit, world space, the direction in which the path has come to the point.
   virtual void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const = 0;
-  /// Whether a lobe outside the connectable ones exists anywhere on it.
+  /// Whether a lobe outside the connectable ones exists anywhere on it. What passes straight through is no lobe.
   virtual bool has_other_lobes(const LobeSelection& lobes) const = 0;
   /// Upper bound of pi f of the connectable lobes anywhere on it for any directions, largest channel; finite.
   virtual float max_connectable_pi_f(const LobeSelection& lobes) const = 0;
@@ -43,6 +43,8 @@ class Material {
   virtual bool bends_normals() const { return false; }
   /// Whether light may pass to the other side.
   virtual bool transmits() const { return false; }
+  /// Whether light may pass straight through anywhere on it (Bsdf::straight_transmittance()).
+  virtual bool crosses() const { return false; }
   /// Whether shade() turns the frame to the other side where `known` comes from there.
   virtual bool turns_frame() const { return false; }
   /// Textures that it and what is nested in it refer to; may hold constants.

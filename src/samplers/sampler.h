@@ -29,6 +29,7 @@ enum class Use : std::uint16_t {
   group_offset,        ///< offset of the blocks or tiles of a pass
   tile_comb,           ///< place of the comb that draws a tile's candidates
   candidate_choice,    ///< place of the comb that draws among them for a pixel
+  crossing,            ///< whether a path passes straight through a surface or is scattered
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };

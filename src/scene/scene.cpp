@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.h"
@@ -62,6 +63,31 @@ Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t,
   return as_normal(sum / std::sqrt(squared));
 }
 
+/// Whether anything blocks a ray. It may look past surfaces that can let light pass straight through, and notes that it
+/// did.
+struct ShadowQuery {
+  RTCIntersectContext context;  // first: Embree hands its address on
+  bool skips_crossings;
+  bool skipped = false;
+
+  explicit ShadowQuery(bool skip_crossings) : skips_crossings(skip_crossings) { rtcInitIntersectContext(&context); }
+
+  bool finds_blocker(RTCScene scene, const Ray& ray) {
+    RTCRay shadow = to_embree(ray);
+    rtcOccluded1(scene, &context, &shadow);
+    return shadow.tfar < 0;
+  }
+
+  /// Embree's filter of surfaces that can let light pass.
+  static void skip(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<ShadowQuery*>(arguments->context);
+    if (!query->skips_crossings) return;
+    query->skipped = true;
+    arguments->valid[0] = 0;
+  }
+};
+static_assert(std::is_standard_layout_v<ShadowQuery>);
+
 }  // namespace
 
 /// Device, scene and what they use of memory.
@@ -70,12 +96,14 @@ struct Scene::Embree {
   std::unique_ptr<RTCDeviceTy, DeviceRelease> device;
   std::unique_ptr<RTCSceneTy, SceneRelease> scene;
 
-  explicit Embree(const std::vector<TriangleMesh>& meshes);
-  Geometry make_geometry(const TriangleMesh& mesh) const;
+  /// `crosses`: per material.
+  Embree(const std::vector<TriangleMesh>& meshes, const std::vector<bool>& crosses);
+  Geometry make_geometry(const TriangleMesh& mesh, bool crosses) const;
   void check() const;
 };
 
-Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes) : device(rtcNewDevice(nullptr)) {
+Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes, const std::vector<bool>& crosses)
+    : device(rtcNewDevice(nullptr)) {
   if (!device)
     throw_failure("", fmt::format("Embree cannot be started (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
   const auto count_bytes = [](void* user, ssize_t change, bool) {
@@ -87,7 +115,7 @@ Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes) : device(rtcNewDe
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   std::vector<Geometry> geometries(meshes.size());
   parallel_for(meshes.size(), 1, [&](std::size_t i, std::size_t) {
-    if (!meshes[i].triangles.empty()) geometries[i] = make_geometry(meshes[i]);
+    if (!meshes[i].triangles.empty()) geometries[i] = make_geometry(meshes[i], crosses[meshes[i].material]);
   });
   for (std::size_t i = 0; i < geometries.size(); ++i)
     if (geometries[i]) rtcAttachGeometryByID(scene.get(), geometries[i].get(), static_cast<unsigned int>(i));
@@ -95,7 +123,7 @@ Scene::Embree::Embree(const std::vector<TriangleMesh>& meshes) : device(rtcNewDe
   check();
 }
 
-Geometry Scene::Embree::make_geometry(const TriangleMesh& mesh) const {
+Geometry Scene::Embree::make_geometry(const TriangleMesh& mesh, bool crosses) const {
   Geometry geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   // Copies: Embree reads 16 bytes for each vertex of 12, beyond the end of a shared buffer.
   void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -105,6 +133,7 @@ Geometry Scene::Embree::make_geometry(const TriangleMesh& mesh) const {
   check();  // here: Embree keeps errors by thread
   std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Point3*>(positions));
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
+  if (crosses) rtcSetGeometryOccludedFilterFunction(geometry.get(), ShadowQuery::skip);
   rtcCommitGeometry(geometry.get());
   check();
   return geometry;
@@ -130,10 +159,13 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
   auto [shapes, bounds] = prepare_meshes(description_.meshes);
   shapes_ = std::move(shapes);
   bounds_ = bounds;
-  for (const MaterialPtr& material : description_.materials)
+  for (const MaterialPtr& material : description_.materials) {
     needs_derivatives_.push_back(material->needs_derivatives());
+    crosses_.push_back(material->crosses());
+  }
+  for (const TriangleMesh& mesh : description_.meshes) has_crossings_ |= crosses_[mesh.material];
   emitters_ = Emitters(description_.meshes, description_.area_lights, description_.lights, bounding_sphere());
-  embree_ = std::make_unique<Embree>(description_.meshes);
+  embree_ = std::make_unique<Embree>(description_.meshes, crosses_);
 }
 
 Scene::~Scene() = default;
@@ -181,12 +213,35 @@ ShadedPoint Scene::shade(const SurfacePoint& point, Vec3 wo) const {
   return {point, shading.frame, shading.bsdf, shading.frame.to_local(wo)};
 }
 
-bool Scene::occluded(const Ray& ray) const {
-  RTCRay shadow = to_embree(ray);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(embree_->scene.get(), &context, &shadow);
-  return shadow.tfar < 0;
+bool Scene::occluded(const Ray& ray) const { return ShadowQuery(false).finds_blocker(embree_->scene.get(), ray); }
+
+Passage Scene::passage(const Ray& ray, int max_crossings) const {
+  Passage passage;
+  ShadowQuery query(max_crossings > 0);
+  const bool blocked = query.finds_blocker(embree_->scene.get(), ray);
+  if (blocked) passage.transmittance = Rgb();
+  if (blocked || !query.skipped) return passage;
+
+  const Vec3 back = -normalize(ray.direction);
+  Ray rest = ray;
+  while (true) {
+    ++passage.rays;
+    const auto hit = intersect(rest);
+    if (!hit) return passage;
+    float probability = 0;
+    if (crosses_[hit->material] && passage.crossings < max_crossings) {
+      const ShadedPoint point = shade(*hit, back);
+      probability = point.bsdf.pass_probability(point.wo);
+      passage.transmittance *= point.bsdf.straight_transmittance();
+    }
+    if (probability == 0) {
+      passage.transmittance = Rgb();
+      return passage;
+    }
+    passage.probability *= probability;
+    ++passage.crossings;
+    rest = pass_on(rest, *hit);
+  }
 }
 
 BoundingSphere Scene::bounding_sphere() const {

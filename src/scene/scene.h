@@ -30,6 +30,15 @@ struct SceneDescription {
   std::vector<std::filesystem::path> files;  ///< all that the scene was read from, the scene file first
 };
 
+/// What a ray meets of surfaces that let light pass straight through (crossings, DESIGN 2).
+struct Passage {
+  Rgb transmittance{1};  ///< product over the crossings; black where the ray is blocked
+  float probability =
+      1;              ///< with which a path sampled in the ray's direction gets through: see Bsdf::pass_probability()
+  int crossings = 0;  ///< up to where the ray is found to be blocked
+  int rays = 1;       ///< traced to find out
+};
+
 /// Geometry, materials, emitters and camera, ready to trace. Immutable; all queries may run concurrently.
 class Scene {
  public:
@@ -45,6 +54,12 @@ class Scene {
   ShadedPoint shade(const SurfacePoint& point, Vec3 wo) const;
   /// Whether anything lies on the ray before its max_distance.
   bool occluded(const Ray& ray) const;
+  /// What gets along the ray up to its max_distance. Blocked by a surface that lets nothing pass straight through, and
+  /// by any surface after `max_crossings` crossings. As cheap as occluded() where no surface on the ray lets light
+  /// pass.
+  Passage passage(const Ray& ray, int max_crossings) const;
+  /// Whether any surface lets light pass straight through.
+  bool has_crossings() const { return has_crossings_; }
 
   const PerspectiveCamera& camera() const { return description_.camera; }
   const Emitters& emitters() const { return emitters_; }
@@ -65,6 +80,8 @@ class Scene {
   SceneDescription description_;
   std::vector<std::vector<TriangleShape>> shapes_;  // per mesh and triangle
   std::vector<bool> needs_derivatives_;             // per material
+  std::vector<bool> crosses_;                       // per material
+  bool has_crossings_ = false;
   Emitters emitters_;
   Bounds3 bounds_;
   std::unique_ptr<Embree> embree_;

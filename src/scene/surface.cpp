@@ -1,5 +1,7 @@
 #include "scene/surface.h"
 
+#include <algorithm>
+
 namespace gradslc {
 namespace {
 
@@ -21,6 +23,12 @@ Point3 offset_position(const SurfacePoint& point, Vec3 direction) {
 
 Ray spawn_ray(const SurfacePoint& point, Vec3 direction, float max_distance) {
   return {offset_position(point, direction), direction, max_distance};
+}
+
+Ray pass_on(const Ray& ray, const SurfacePoint& at) {
+  const Point3 start = offset_position(at, ray.direction);
+  const float passed = dot(start - ray.origin, ray.direction) / length_squared(ray.direction);
+  return {start, ray.direction, std::max(0.0f, ray.max_distance - passed)};
 }
 
 Ray segment(Point3 from, Point3 to) { return {from, to - from, k_segment_end}; }

@@ -41,6 +41,9 @@ Point3 offset_position(Point3 position, Normal3 geometric_normal, float error, V
 /// A ray that leaves `point` in the unit direction `direction`.
 Ray spawn_ray(const SurfacePoint& point, Vec3 direction, float max_distance = k_infinity);
 
+/// What is left of `ray` beyond the point `at` on it, where it passes straight through the surface.
+Ray pass_on(const Ray& ray, const SurfacePoint& at);
+
 /// The open segment between two positions that are already offset: direction is `to - from`, not normalised, and
 /// max_distance is 1 - 1e-4, so that rounding of the hit distance does not make the end point's own surface occlude it.
 Ray segment(Point3 from, Point3 to);

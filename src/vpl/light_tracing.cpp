@@ -38,6 +38,40 @@ void deposit(const ShadedPoint& y, Vec3 wi, Rgb flux, int vertex, const LobeSele
   set.vpls.push_back(vpl);
 }
 
+/// How a particle goes on from a vertex.
+struct Step {
+  Ray ray;
+  Rgb weight;
+  bool crosses = false;  ///< passes straight through
+  bool delta = false;    ///< scattered by a delta lobe
+};
+
+std::optional<Step> scatter(const ShadedPoint& y, Vec3 wi, const LightTracingSettings& settings,
+                            const SampleStream& random, std::uint32_t vertex) {
+  const float u_lobe = random.get1(Use::lobe, vertex);
+  const auto scattered =
+      y.bsdf.sample(y.wo, u_lobe, random.get2(Use::direction, vertex), settings.lobes, Transport::particles);
+  if (!scattered) return std::nullopt;
+  const Vec3 wo = y.to_world(scattered->direction);
+  const float cos_wi_geometric = std::abs(dot(wi, y.point.geometric_normal));
+  if (cos_wi_geometric == 0 || scattered->direction.z == 0) return std::nullopt;
+  // Adjoint of shading normals: |wi.ns| |wo.ng| / (|wi.ng| |wo.ns|) (Veach 1997, eq. 5.19).
+  const float adjoint = std::abs(y.wo.z) * std::abs(dot(wo, y.point.geometric_normal)) /
+                        (cos_wi_geometric * std::abs(scattered->direction.z));
+  return Step{.ray = spawn_ray(y.point, wo), .weight = scattered->weight * adjoint, .delta = scattered->delta};
+}
+
+/// The particle on `ray` either passes straight through the surface at y or is scattered there, one of them drawn.
+std::optional<Step> pass_or_scatter(const ShadedPoint& y, const Ray& ray, const LightTracingSettings& settings,
+                                    const SampleStream& random, std::uint32_t vertex) {
+  const float pass = y.bsdf.pass_probability(y.wo);
+  if (pass > 0 && random.get1(Use::crossing, vertex) < pass)
+    return Step{.ray = pass_on(ray, y.point), .weight = y.bsdf.straight_transmittance() / pass, .crosses = true};
+  auto step = scatter(y, -ray.direction, settings, random, vertex);
+  if (step) step->weight *= 1 / (1 - pass);
+  return step;
+}
+
 /// Appends the VPLs of one light path; returns the rays that it took.
 std::uint64_t trace_light_path(const Scene& scene, const LightTracingSettings& settings, std::uint64_t path,
                                VplSet& set) {
@@ -49,6 +83,7 @@ std::uint64_t trace_light_path(const Scene& scene, const LightTracingSettings& s
   const EmissionSample emission = scene.emitters().sample_emission(u_emitter, u_point, u_direction);
   Rgb flux = emission.power / static_cast<float>(settings.light_paths);
   Ray ray = emission.ray;
+  bool has_scattered = false;
   std::uint64_t rays = 0;
   for (int k = 1; k <= settings.max_bounces; ++k) {
     ++rays;
@@ -60,23 +95,15 @@ std::uint64_t trace_light_path(const Scene& scene, const LightTracingSettings& s
     if (k == settings.max_bounces) break;
 
     const auto vertex = static_cast<std::uint32_t>(k);
-    const float u_lobe = random.get1(Use::lobe, vertex);
-    const auto scattered =
-        y.bsdf.sample(y.wo, u_lobe, random.get2(Use::direction, vertex), settings.lobes, Transport::particles);
-    if (!scattered) break;
+    const auto step = pass_or_scatter(y, ray, settings, random, vertex);
+    if (!step) break;
     // A delta emitter's light that is scattered into a discrete direction first is found by no camera path (DESIGN 2).
-    if (emission.delta && k == 1 && scattered->delta) break;
-    const Vec3 wo = y.to_world(scattered->direction);
-    const float cos_wi_geometric = std::abs(dot(wi, hit->geometric_normal));
-    if (cos_wi_geometric == 0 || scattered->direction.z == 0) break;
-    // Adjoint of shading normals: |wi.ns| |wo.ng| / (|wi.ng| |wo.ns|) (Veach 1997, eq. 5.19).
-    const float adjoint = std::abs(y.wo.z) * std::abs(dot(wo, hit->geometric_normal)) /
-                          (cos_wi_geometric * std::abs(scattered->direction.z));
-    const Rgb weight = scattered->weight * adjoint;
-    const float survival = std::min(1.0f, max_channel(weight));
+    if (emission.delta && !has_scattered && step->delta) break;
+    has_scattered |= !step->crosses;
+    const float survival = std::min(1.0f, max_channel(step->weight));
     if (random.get1(Use::roulette, vertex) >= survival) break;
-    flux *= weight / survival;
-    ray = spawn_ray(*hit, wo);
+    flux *= step->weight / survival;
+    ray = step->ray;
   }
   return rays;
 }

@@ -22,6 +22,7 @@ class BentMaterial : public Material {
   bool needs_derivatives() const final { return true; }
   bool bends_normals() const final { return true; }
   bool transmits() const final { return nested_->transmits(); }
+  bool crosses() const final { return nested_->crosses(); }
   bool turns_frame() const final { return nested_->turns_frame(); }
   std::vector<Texture> textures() const final {
     std::vector<Texture> textures = nested_->textures();

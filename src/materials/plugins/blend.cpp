@@ -35,6 +35,7 @@ class BlendMaterial final : public Material {
   int max_lobes() const override { return first_->max_lobes() + second_->max_lobes(); }
   bool needs_derivatives() const override { return first_->needs_derivatives() || second_->needs_derivatives(); }
   bool transmits() const override { return first_->transmits() || second_->transmits(); }
+  bool crosses() const override { return first_->crosses() || second_->crosses(); }
   bool turns_frame() const override { return first_->turns_frame() || second_->turns_frame(); }
   std::vector<Texture> textures() const override {
     return joined(joined({weight_}, first_->textures()), second_->textures());

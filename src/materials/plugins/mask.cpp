@@ -21,18 +21,17 @@ class MaskMaterial final : public Material {
       shading.frame = opaque.frame;
       shading.bsdf.add(opaque.bsdf, opacity);
     }
-    if (opacity != Rgb(1)) shading.bsdf.add(StraightTransmission{Rgb(1) - opacity});
+    shading.bsdf.add_straight_transmittance(Rgb(1) - opacity);
   }
-  bool has_other_lobes(const LobeSelection& lobes) const override {
-    return clamped(opacity_.min_value()) != Rgb(1) || nested_->has_other_lobes(lobes);
-  }
+  bool has_other_lobes(const LobeSelection& lobes) const override { return nested_->has_other_lobes(lobes); }
   float max_connectable_pi_f(const LobeSelection& lobes) const override {
     return max_channel(clamped(opacity_.max_value())) * nested_->max_connectable_pi_f(lobes);
   }
-  int max_lobes() const override { return nested_->max_lobes() + 1; }
+  int max_lobes() const override { return nested_->max_lobes(); }
   bool needs_derivatives() const override { return nested_->needs_derivatives(); }
   bool bends_normals() const override { return nested_->bends_normals(); }
   bool transmits() const override { return true; }
+  bool crosses() const override { return clamped(opacity_.min_value()) != Rgb(1) || nested_->crosses(); }
   bool turns_frame() const override { return nested_->turns_frame(); }
   std::vector<Texture> textures() const override { return joined({opacity_}, nested_->textures()); }
 
@@ -47,8 +46,6 @@ MaterialPtr make_mask(PropertyReader& properties) {
   const Texture opacity = properties.texture("opacity", Rgb(0.5f));
   const std::vector<MaterialPtr> nested = properties.nested_materials();
   if (nested.size() != 1) properties.fail("", "a mask needs one bsdf inside");
-  if (nested.front()->max_lobes() >= static_cast<int>(Bsdf::k_max_lobes))
-    properties.fail("", "the bsdf inside this mask has too many layers");
   return make_mask(opacity, nested.front());
 }
 

@@ -6,10 +6,13 @@ namespace {
 /// A surface that is not there.
 class NullMaterial final : public Material {
  public:
-  void shade(const MaterialPoint&, Vec3, Shading& shading) const override { shading.bsdf.add(StraightTransmission{}); }
-  bool has_other_lobes(const LobeSelection&) const override { return true; }
+  void shade(const MaterialPoint&, Vec3, Shading& shading) const override {
+    shading.bsdf.add_straight_transmittance(Rgb(1));
+  }
+  bool has_other_lobes(const LobeSelection&) const override { return false; }
   float max_connectable_pi_f(const LobeSelection&) const override { return 0; }
   bool transmits() const override { return true; }
+  bool crosses() const override { return true; }
 };
 
 }  // namespace

@@ -10,14 +10,15 @@ class ThinDielectricMaterial final : public Material {
   ThinDielectricMaterial(float eta, Texture reflectance, Texture transmittance)
       : eta_(eta), reflectance_(std::move(reflectance)), transmittance_(std::move(transmittance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
     shading.bsdf.add(ThinPaneReflection{{eta_}, reflectance_.eval(point.uv)});
-    shading.bsdf.add(StraightTransmission{transmittance_.eval(point.uv), eta_});
+    const float reflected = thin_pane_reflectance(dot(known, shading.frame.n), eta_);
+    shading.bsdf.add_straight_transmittance(transmittance_.eval(point.uv) * (1 - reflected));
   }
   bool has_other_lobes(const LobeSelection&) const override { return true; }
   float max_connectable_pi_f(const LobeSelection&) const override { return 0; }
-  int max_lobes() const override { return 2; }
   bool transmits() const override { return true; }
+  bool crosses() const override { return true; }
   std::vector<Texture> textures() const override { return {reflectance_, transmittance_}; }
 
  private:

@@ -67,6 +67,46 @@ constexpr const char* k_glossy_box = R"(
     </bsdf>
   </shape>)";
 
+constexpr const char* k_partitioned_box = R"(
+  <sensor type="perspective">
+    <float name="fov" value="42"/>
+    <transform name="to_world"><lookat origin="0, 0, -3.6" target="0, 0, 0" up="0, 1, 0"/></transform>
+  </sensor>
+  <bsdf type="diffuse" id="white"><rgb name="reflectance" value="0.7"/></bsdf>
+  <bsdf type="diffuse" id="red"><rgb name="reflectance" value="0.7, 0.1, 0.1"/></bsdf>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="-90"/><translate y="-1"/></transform> <ref id="white"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="90"/><translate y="1"/></transform> <ref id="white"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="180"/><translate z="1"/></transform> <ref id="white"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="90"/><translate x="-1"/></transform> <ref id="red"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate y="1" angle="-90"/><translate x="1"/></transform> <ref id="white"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale x="0.3" y="0.4"/><rotate y="1" angle="200"/><translate x="0.6" y="-0.5" z="0.7"/></transform>
+    <bsdf type="conductor"><string name="material" value="none"/></bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale x="0.3" y="0.4"/><rotate x="1" angle="90"/><translate x="-0.6" y="0.98"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+    <emitter type="area"><rgb name="radiance" value="10, 8, 5"/></emitter>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale x="1.1" y="0.99"/><rotate y="1" angle="-60"/><translate x="0.1"/></transform>
+    <ref id="partition"/>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="0.4"/><rotate x="1" angle="85"/><translate x="-0.55" y="0.5" z="-0.4"/></transform>
+    <ref id="partition"/>
+  </shape>)";
+
 constexpr const char* k_ceiling = R"(
   <shape type="rectangle">
     <transform name="to_world"><rotate x="1" angle="90"/><translate y="1"/></transform>
@@ -191,6 +231,13 @@ Scene test_box(Resolution resolution, const TestBox& options) {
   }
   d.camera = camera_at(resolution, scaled({0, 0, -3.6f}, s), scaled({0, 0, 0}, s), 42);
   return Scene(std::move(d));
+}
+
+Scene partitioned_box(Resolution resolution, const std::string& partition) {
+  std::string bsdf = partition;
+  bsdf.insert(bsdf.find('>'), R"( id="partition")");
+  const std::string text = "<scene version=\"3.0.0\">" + bsdf + k_partitioned_box + "</scene>";
+  return Scene(load_scene_text(text, "partitioned_box.xml", {.width = resolution.width, .height = resolution.height}));
 }
 
 Scene glossy_box(Resolution resolution, GlossyLight light) {

@@ -1,6 +1,8 @@
 #pragma once
 // Small scenes for tests, built in memory.
 
+#include <string>
+
 #include "scene/scene.h"
 
 namespace gradslc {
@@ -34,6 +36,11 @@ struct TestBox {
   float wall_albedo = 0.7f;
 };
 Scene test_box(Resolution resolution, const TestBox& options = {});
+
+/// A box of the same size that a slanting partition divides: the lamp is in its left part, half of it over a second
+/// sheet of the same material, and a mirror stands behind the partition. `partition`: the sheets' <bsdf>, whose tag
+/// does not close itself.
+Scene partitioned_box(Resolution resolution, const std::string& partition);
 
 /// A box of the same size with every kind of lobe: rough and smooth plastic, rough and smooth metal, rough glass, a
 /// pane, a mask, and a board whose shading normals are far off its geometric one.

@@ -12,7 +12,7 @@ namespace gradslc {
 struct BsdfTraits {
   bool both_sides = false;  ///< scatters light that comes to either side, or lets it pass
   bool transmits = false;
-  bool white = false;  ///< loses no energy at all
+  bool white = false;  ///< loses no energy at all, what passes straight through included
   float eta = 1;       ///< index inside over index outside where light is refracted
 };
 

@@ -125,7 +125,8 @@ TEST_P(EveryBsdf, IsReciprocal) {
   }
 }
 
-// Particles never gain; white delta and Lambertian BSDFs lose nothing, whatever is drawn.
+// Particles never gain, what passes straight through included; white delta and Lambertian BSDFs lose nothing, whatever
+// is drawn.
 TEST_P(EveryBsdf, KeepsItsEnergy) {
   const BsdfCase& c = GetParam();
   const LobeSelection all;
@@ -136,13 +137,13 @@ TEST_P(EveryBsdf, KeepsItsEnergy) {
     for (int i = 0; i < 4000; ++i) {
       const float u_lobe = random.get1();
       const auto sample = bsdf.sample(known, u_lobe, random.get2(), all, Transport::particles);
-      const Rgb weight = sample ? sample->weight : Rgb();
+      const Rgb weight = (sample ? sample->weight : Rgb()) + bsdf.straight_transmittance();
       for (int channel = 0; channel < 3; ++channel) channels[channel].add(weight[channel]);
       if (c.traits.white && scatters_from(c, seen)) {
         ASSERT_NEAR(max_channel(weight), 1, 1e-6f);
       }
     }
-    const float energy = bsdf.energy(known, all);
+    const float energy = bsdf.energy(known, all) + max_channel(bsdf.straight_transmittance());
     if (!scatters_from(c, seen)) {
       EXPECT_EQ(energy, 0);
       EXPECT_EQ(channels[0].mean(), 0);
@@ -263,16 +264,35 @@ TEST_P(EveryBsdf, IsWhatItsMaterialSays) {
   for (const float threshold : {0.01f, 0.1f, 0.35f}) {
     LobeSelection lobes;
     lobes.connectable_roughness = threshold;
-    bool others = false, transmits = false;
+    bool others = false, transmits = false, crosses = false;
     for (const Vec3 known : {Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
       const Bsdf bsdf = seen_from(GetParam(), known).bsdf;
       others |= bsdf.has(lobes.only_other());
-      transmits |= bsdf.transmits(lobes);
+      crosses |= !is_black(bsdf.straight_transmittance());
+      transmits |= crosses || bsdf.transmits(lobes);
       EXPECT_LE(static_cast<int>(bsdf.entries().size()), material.max_lobes());
     }
     EXPECT_EQ(material.has_other_lobes(lobes), others);
     EXPECT_EQ(material.transmits(), transmits);
+    EXPECT_EQ(material.crosses(), crosses);
     EXPECT_EQ(transmits, GetParam().traits.transmits);
+  }
+}
+
+// Paths pass on in proportion to what passes, and the same light passes in either sense.
+TEST_P(EveryBsdf, LetsLightPassInEitherSense) {
+  for (const Vec3 seen : known_directions()) {
+    const auto [bsdf, known] = seen_from(GetParam(), seen);
+    const float passes = max_channel(bsdf.straight_transmittance()), scatters = bsdf.energy(known, LobeSelection());
+    expect_near(bsdf.straight_transmittance(), seen_from(GetParam(), -seen).bsdf.straight_transmittance(), 1e-6f);
+    EXPECT_EQ(bsdf.pass_probability(known) > 0, passes > 0);
+    EXPECT_NEAR(bsdf.pass_probability(known) * (passes + scatters), passes, 1e-6f);
+    TestRandom random(9);
+    for (int i = 0; i < 200; ++i) {  // crossings are no lobes
+      const float u_lobe = random.get1();
+      const auto sample = bsdf.sample(known, u_lobe, random.get2(), LobeSelection());
+      ASSERT_FALSE(GetParam().material->crosses() && sample && sample->delta && sample->direction == -known);
+    }
   }
 }
 
