@@ -30,13 +30,9 @@ bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSamp
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation) {
   const float cos_over_pdf = std::abs(wi.z) / pdf_solid_angle;
-  LobeWeights weights;
-  if (lobes.connectable) {
-    const Rgb f = vertex.bsdf.eval(vertex.wo, wi, lobes.only_connectable());
-    weights.connectable = f * (cos_over_pdf * (compensation ? compensation->weight(f) : 1));
-  }
-  if (lobes.other) weights.other = vertex.bsdf.eval(vertex.wo, wi, lobes.only_other()) * cos_over_pdf;
-  return weights;
+  const Bsdf::Split f = vertex.bsdf.eval_split(vertex.wo, wi, lobes);
+  return {f.connectable * (cos_over_pdf * (compensation ? compensation->weight(f.connectable) : 1)),
+          f.other * cos_over_pdf};
 }
 
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,

@@ -116,7 +116,10 @@ bool scatter(PathContext& context, const PathVertex& vertex, const Compensation*
   const float u_lobe = context.random.get1(Use::lobe, index);
   const auto sample = vertex.bsdf.sample(vertex.wo, u_lobe, context.random.get2(Use::direction, index), lobes);
   if (!sample) return false;
-  throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
+  if (Throughput::k_by_lobes || compensation)
+    throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
+  else
+    throughput = throughput.scattered({sample->weight, Rgb()});
   if (throughput.is_black()) return false;
   ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
   origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
