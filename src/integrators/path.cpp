@@ -10,15 +10,11 @@ PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings
   return {context, film_position(pixel, context.random.get2(Use::pixel))};
 }
 
-std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex) {
-  const Emitters& emitters = context.scene.emitters();
-  if (emitters.empty()) return std::nullopt;
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex) {
   const auto index = static_cast<std::uint32_t>(vertex.edges);
   const double u_emitter = context.random.get1_double(Use::emitter, index);
-  const auto light =
-      emitters.sample_direct(vertex.point.position, u_emitter, context.random.get2(Use::emitter_point, index));
-  if (!light) return std::nullopt;
-  return NextEvent{*light, vertex.to_local(light->wi)};
+  const Vec2 u_point = context.random.get2(Use::emitter_point, index);
+  return context.scene.emitters().sample_direct(vertex.point.position, u_emitter, u_point);
 }
 
 bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light) {

@@ -66,14 +66,9 @@ inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, 
   return {scene.shade(hit, wo), edges};
 }
 
-/// An emitter seen from a vertex: the light that arrives, over the density of the choice.
-struct NextEvent {
-  DirectSample light;
-  Vec3 wi;  ///< local
-};
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
 /// not tested.
-std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex);
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex);
 bool is_visible(PathContext& context, const SurfacePoint& from, const DirectSample& light);
 
 /// Splits the value of the selected lobes towards wi; each times |cos| over pdf.
@@ -88,14 +83,14 @@ LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, con
 template <class Throughput>
 void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes,
                     const Throughput& throughput, const Compensation* compensation, PartValues& radiance) {
-  const auto event = choose_emitter(context, vertex);
-  if (!event) return;
-  const float pdf = event->light.pdf_solid_angle;
-  const Throughput scattered = throughput.scattered(lobe_weights(vertex, event->wi, pdf, lobes, compensation));
-  if (scattered.is_black() || !is_visible(context, vertex.point, event->light)) return;
-  const float mis =
-      event->light.delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes));
-  scattered.scaled(mis).collect(event->light.radiance, radiance);
+  const auto light = choose_emitter(context, vertex);
+  if (!light) return;
+  const Vec3 wi = vertex.to_local(light->wi);
+  const float pdf = light->pdf_solid_angle;
+  const Throughput scattered = throughput.scattered(lobe_weights(vertex, wi, pdf, lobes, compensation));
+  if (scattered.is_black() || !is_visible(context, vertex.point, *light)) return;
+  const float mis = light->delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, wi, lobes));
+  scattered.scaled(mis).collect(light->radiance, radiance);
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.

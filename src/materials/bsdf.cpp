@@ -73,7 +73,8 @@ Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const
 std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                        Transport transport) const {
   const Choice choice(entries_, known, lobes);
-  if (choice.total == 0) return std::nullopt;
+  std::optional<BsdfSample> sample;
+  if (choice.total == 0) return sample;
   std::size_t chosen = 0;
   float below = 0;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -85,8 +86,8 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const L
   const Entry& entry = entries_[chosen];
   const float u_choice =
       std::clamp((u_lobe * choice.total - below) / choice.energies[chosen], 0.0f, k_one_minus_epsilon);
-  auto sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_choice, u, transport); });
-  if (!sample) return std::nullopt;
+  sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_choice, u, transport); });
+  if (!sample) return sample;
   if (choice.energies[chosen] == choice.total) {  // nothing to choose from
     sample->weight *= entry.weight;
     return sample;
@@ -99,7 +100,10 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const L
   }
   const Vec3 w = sample->direction;
   sample->pdf_solid_angle = choice.pdf_solid_angle(entries_, known, w);
-  if (!(sample->pdf_solid_angle > 0)) return std::nullopt;
+  if (!(sample->pdf_solid_angle > 0)) {
+    sample.reset();
+    return sample;
+  }
   const Rgb f = transport == Transport::radiance ? eval(known, w, lobes) : eval(w, known, lobes);
   sample->weight = f * (std::abs(w.z) / sample->pdf_solid_angle);
   return sample;

@@ -63,8 +63,8 @@ class Scene {
  private:
   struct Embree;
   SceneDescription description_;
-  std::vector<std::vector<TriangleShape>> shapes_;  // per mesh and triangle
-  std::vector<bool> needs_derivatives_;             // per material
+  std::vector<PreparedMesh> prepared_;   // per mesh
+  std::vector<bool> needs_derivatives_;  // per material
   Emitters emitters_;
   Bounds3 bounds_;
   std::unique_ptr<Embree> embree_;

@@ -5,7 +5,7 @@
 #include "core/frame.h"
 #include "core/ray.h"
 #include "core/vec.h"
-#include "materials/bsdf.h"
+#include "materials/material.h"
 
 namespace gradslc {
 
@@ -22,11 +22,9 @@ struct SurfacePoint {
   float error = 0;  ///< bound of the position's rounding error, scene units: how far rays must start from the surface
 };
 
-/// A surface point with what scattering there needs.
-struct ShadedPoint {
+/// A surface point with what scattering there needs. `bsdf` and `wo` are in `frame`.
+struct ShadedPoint : Shading {
   SurfacePoint point;
-  Frame frame;  ///< in which `bsdf` and `wo` are
-  Bsdf bsdf;
   Vec3 wo;  ///< local, unit: the direction in which the path has come
 
   Vec3 to_local(Vec3 v) const { return frame.to_local(v); }
