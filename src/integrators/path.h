@@ -63,7 +63,10 @@ struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
 };
 inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, Vec3 wo, int edges) {
-  return {scene.shade(hit, wo), edges};
+  PathVertex vertex;
+  scene.shade(hit, wo, vertex);
+  vertex.edges = edges;
+  return vertex;
 }
 
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
@@ -117,7 +120,9 @@ bool scatter(PathContext& context, const PathVertex& vertex, const Compensation*
     throughput = throughput.scattered({sample->weight, Rgb()});
   if (throughput.is_black()) return false;
   ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
-  origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
+  origin.position = vertex.point.position;
+  origin.pdf_solid_angle = sample->pdf_solid_angle;
+  origin.emission_only_by_hit = sample->delta;
   return true;
 }
 

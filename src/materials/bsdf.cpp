@@ -38,6 +38,23 @@ struct Choice {
       if (lobes.includes(entries[i].roughness)) total += energies[i] = energy_of(entries[i], known);
   }
 
+  struct Chosen {
+    std::size_t index;
+    float u;  // what is left of the random number, stretched to [0,1)
+  };
+  Chosen choose(float u_lobe) const {
+    if (total == 0) return {0, 0};
+    std::size_t chosen = 0;
+    float below = 0;
+    for (std::size_t i = 0; i < Bsdf::k_max_lobes; ++i) {
+      if (energies[i] == 0) continue;
+      chosen = i;
+      if (u_lobe * total < below + energies[i]) break;
+      below += energies[i];
+    }
+    return {chosen, std::clamp((u_lobe * total - below) / energies[chosen], 0.0f, k_one_minus_epsilon)};
+  }
+
   /// Density of the directions that are sampled by this choice, 1/sr; total > 0.
   template <class Entries>
   float pdf_solid_angle(const Entries& entries, Vec3 known, Vec3 w) const {
@@ -53,7 +70,10 @@ struct Choice {
 }  // namespace
 
 void Bsdf::add(const Bsdf& other, Rgb weight) {
-  for (const Entry& entry : other.entries_) entries_.push_back({entry.lobe, entry.weight * weight, entry.roughness});
+  for (const Entry& entry : other.entries_) {
+    entries_.push_back(entry);
+    entries_.back().weight *= weight;
+  }
 }
 
 Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
@@ -73,28 +93,19 @@ Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const
 std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                        Transport transport) const {
   const Choice choice(entries_, known, lobes);
-  std::optional<BsdfSample> sample;
-  if (choice.total == 0) return sample;
-  std::size_t chosen = 0;
-  float below = 0;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (choice.energies[i] == 0) continue;
-    chosen = i;
-    if (u_lobe * choice.total < below + choice.energies[i]) break;
-    below += choice.energies[i];
-  }
-  const Entry& entry = entries_[chosen];
-  const float u_choice =
-      std::clamp((u_lobe * choice.total - below) / choice.energies[chosen], 0.0f, k_one_minus_epsilon);
-  sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_choice, u, transport); });
+  const auto [chosen, u_choice] = choice.choose(u_lobe);
+  const auto sample_lobe = [&, u_choice = u_choice](const auto& lobe) {
+    return lobe.sample(known, u_choice, u, transport);
+  };
+  auto sample = choice.total > 0 ? visit_lobe(entries_[chosen].lobe, sample_lobe) : std::optional<BsdfSample>();
   if (!sample) return sample;
   if (choice.energies[chosen] == choice.total) {  // nothing to choose from
-    sample->weight *= entry.weight;
+    sample->weight *= entries_[chosen].weight;
     return sample;
   }
   if (sample->delta) {
     const float probability = choice.energies[chosen] / choice.total;
-    sample->weight *= entry.weight / probability;
+    sample->weight *= entries_[chosen].weight / probability;
     sample->pdf_solid_angle *= probability;
     return sample;
   }

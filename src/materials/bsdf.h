@@ -44,6 +44,9 @@ class Bsdf {
     Lobe lobe;
     Rgb weight;       ///< factor of the lobe's f
     float roughness;  ///< the lobe's, asked for by every call
+
+    template <class AnyLobe>
+    Entry(const AnyLobe& of, Rgb factor) : lobe(of), weight(factor), roughness(of.roughness()) {}
   };
   /// f by the lobes that it comes from.
   struct Split {
@@ -53,7 +56,7 @@ class Bsdf {
   /// At most k_max_lobes.
   template <class AnyLobe>
   void add(const AnyLobe& lobe, Rgb weight = Rgb(1)) {
-    entries_.push_back({lobe, weight, lobe.roughness()});
+    entries_.emplace_back(lobe, weight);
   }
   /// All lobes of another BSDF in the same frame, each times `weight`.
   void add(const Bsdf& other, Rgb weight);

@@ -170,8 +170,7 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   return point;
 }
 
-ShadedPoint Scene::shade(const SurfacePoint& point, Vec3 wo) const {
-  ShadedPoint shaded;
+void Scene::shade(const SurfacePoint& point, Vec3 wo, ShadedPoint& shaded) const {
   shaded.point = point;
   MaterialPoint at{point.uv, Vec3(), Vec3()};
   if (needs_derivatives_[point.material]) {
@@ -183,7 +182,6 @@ ShadedPoint Scene::shade(const SurfacePoint& point, Vec3 wo) const {
   }
   description_.materials[point.material]->shade(at, wo, shaded);
   shaded.wo = shaded.frame.to_local(wo);
-  return shaded;
 }
 
 bool Scene::occluded(const Ray& ray) const {

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "experiments/cli/process_environment.h"
 #include "experiments/clock.h"
 #include "experiments/config_override.h"
 #include "experiments/method_plan.h"
@@ -182,6 +183,7 @@ int run(int argc, char** argv) {
 }  // namespace gradslc
 
 int main(int argc, char** argv) {
+  gradslc::set_process_environment(argv);
   try {
     return gradslc::run(argc, argv);
   } catch (const gradslc::Error& error) {
