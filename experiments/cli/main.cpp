@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "experiments/build_info.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/idle_threads.h"
+#include "experiments/cli/process_environment.h"
 
 namespace {
 
@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_idle_threads_sleep(argv);
+  set_process_environment(argv);
   try {
     return run(argc, argv);
   } catch (const Error& error) {

@@ -22,8 +22,13 @@ DiscreteDistribution::DiscreteDistribution(const std::vector<double>& weights) :
 
 DiscreteDistribution::Sample DiscreteDistribution::sample(double u) const {
   assert(total_ > 0 && u >= 0 && u < 1);
-  const auto upper = std::upper_bound(cdf_.begin(), cdf_.end(), u);
-  const auto index = static_cast<std::size_t>(upper - cdf_.begin()) - 1;
+  // The last index with cdf_[index] <= u, by bisection whose steps a processor need not guess.
+  std::size_t index = 0;
+  for (std::size_t left = size(); left > 1;) {
+    const std::size_t half = left / 2;
+    index += cdf_[index + half] <= u ? half : 0;
+    left -= half;
+  }
   const double p = probability(index);
   return {index, p, std::min(static_cast<float>((u - cdf_[index]) / p), k_one_minus_epsilon)};
 }

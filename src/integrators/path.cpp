@@ -10,15 +10,11 @@ PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings
   return {context, film_position(pixel, context.random.get2(Use::pixel))};
 }
 
-std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex) {
-  const Emitters& emitters = context.scene.emitters();
-  if (emitters.empty()) return std::nullopt;
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex) {
   const auto index = static_cast<std::uint32_t>(vertex.edges);
   const double u_emitter = context.random.get1_double(Use::emitter, index);
-  const auto light =
-      emitters.sample_direct(vertex.point.position, u_emitter, context.random.get2(Use::emitter_point, index));
-  if (!light) return std::nullopt;
-  return NextEvent{*light, vertex.to_local(light->wi)};
+  const Vec2 u_point = context.random.get2(Use::emitter_point, index);
+  return context.scene.emitters().sample_direct(vertex.point.position, u_emitter, u_point);
 }
 
 Ray shadow_ray(const SurfacePoint& from, const DirectSample& light) {
@@ -43,13 +39,9 @@ Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) 
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation) {
   const float cos_over_pdf = std::abs(wi.z) / pdf_solid_angle;
-  LobeWeights weights;
-  if (lobes.connectable) {
-    const Rgb f = vertex.bsdf.eval(vertex.wo, wi, lobes.only_connectable());
-    weights.connectable = f * (cos_over_pdf * (compensation ? compensation->weight(f) : 1));
-  }
-  if (lobes.other) weights.other = vertex.bsdf.eval(vertex.wo, wi, lobes.only_other()) * cos_over_pdf;
-  return weights;
+  const Bsdf::Split f = vertex.bsdf.eval_split(vertex.wo, wi, lobes);
+  return {f.connectable * (cos_over_pdf * (compensation ? compensation->weight(f.connectable) : 1)),
+          f.other * cos_over_pdf};
 }
 
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,

@@ -64,17 +64,15 @@ struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
 };
 inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, Vec3 wo, int edges) {
-  return {scene.shade(hit, wo), edges};
+  PathVertex vertex;
+  scene.shade(hit, wo, vertex);
+  vertex.edges = edges;
+  return vertex;
 }
 
-/// An emitter seen from a vertex: the light that arrives, over the density of the choice.
-struct NextEvent {
-  DirectSample light;
-  Vec3 wi;  ///< local
-};
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
 /// not tested.
-std::optional<NextEvent> choose_emitter(PathContext& context, const PathVertex& vertex);
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex);
 /// The shadow ray of that choice.
 Ray shadow_ray(const SurfacePoint& from, const DirectSample& light);
 
@@ -104,19 +102,18 @@ template <class Throughput>
 void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes, int max_edges,
                     const Throughput& throughput, const Compensation* compensation, PartValues& radiance) {
   if (!connection_may_count(context, vertex.edges + 1, max_edges)) return;
-  const auto event = choose_emitter(context, vertex);
-  if (!event) return;
-  const float pdf = event->light.pdf_solid_angle;
-  const Throughput scattered = throughput.scattered(lobe_weights(vertex, event->wi, pdf, lobes, compensation));
+  const auto light = choose_emitter(context, vertex);
+  if (!light) return;
+  const Vec3 wi = vertex.to_local(light->wi);
+  const float pdf = light->pdf_solid_angle;
+  const Throughput scattered = throughput.scattered(lobe_weights(vertex, wi, pdf, lobes, compensation));
   if (scattered.is_black()) return;
-  const Passage passage = connect(context, shadow_ray(vertex.point, event->light), vertex.edges + 1, max_edges);
+  const Passage passage = connect(context, shadow_ray(vertex.point, *light), vertex.edges + 1, max_edges);
   if (is_black(passage.transmittance)) return;
   // The sampled ray reaches the emitter if it also passes all crossings.
   const float mis =
-      event->light.delta
-          ? 1
-          : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, event->wi, lobes) * passage.probability);
-  scattered.transmitted(passage.transmittance).scaled(mis).collect(event->light.radiance, radiance);
+      light->delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, wi, lobes) * passage.probability);
+  scattered.transmitted(passage.transmittance).scaled(mis).collect(light->radiance, radiance);
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
@@ -170,10 +167,15 @@ bool scatter(PathContext& context, const PathVertex& vertex, int max_edges, cons
   const float u_lobe = context.random.get1(Use::lobe, index);
   const auto sample = vertex.bsdf.sample(vertex.wo, u_lobe, context.random.get2(Use::direction, index), lobes);
   if (!sample) return false;
-  throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
+  if (Throughput::k_by_lobes || compensation)
+    throughput = throughput.scattered(lobe_weights(vertex, *sample, lobes, compensation));
+  else
+    throughput = throughput.scattered({sample->weight, Rgb()});
   if (throughput.is_black()) return false;
   ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
-  origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
+  origin.position = vertex.point.position;
+  origin.pdf_solid_angle = sample->pdf_solid_angle;
+  origin.emission_only_by_hit = sample->delta;
   return true;
 }
 

@@ -12,6 +12,7 @@ struct LobeWeights {
 
 /// Throughput of a path whose radiance is not split by parts.
 struct PlainThroughput {
+  static constexpr bool k_by_lobes = false;  ///< needs no more than a sampled direction's weight
   Rgb value{1};
 
   PlainThroughput scattered(const LobeWeights& w) const { return {value * w.total()}; }
@@ -28,6 +29,7 @@ struct PlainThroughput {
 /// makes it gathered (the next vertex is y); y's connectable lobe makes it vpl (or what compensates VPLs), y's others
 /// specular.
 struct LabelledThroughput {
+  static constexpr bool k_by_lobes = true;
   Rgb prefix{1}, gathered, vpl, specular;
   Part vpl_part = Part::vpl;  ///< where the light of `vpl` is booked
 

@@ -5,25 +5,26 @@
 namespace gradslc {
 namespace {
 
-float roughness(const Bsdf::Entry& entry) {
-  return std::visit([](const auto& lobe) { return lobe.roughness(); }, entry.lobe);
+/// std::visit(), where the commonest lobe needs no call through a table.
+template <class Function>
+auto visit_lobe(const Lobe& lobe, const Function& function) {
+  if (const auto* lambert = std::get_if<Lambert>(&lobe)) return function(*lambert);
+  return std::visit(function, lobe);
 }
 
 float energy_of(const Bsdf::Entry& entry, Vec3 known) {
-  return max_channel(entry.weight * std::visit([&](const auto& lobe) { return lobe.energy(known); }, entry.lobe));
+  return max_channel(entry.weight * visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.energy(known); }));
 }
 
 /// `function` of a lobe that has a density; `otherwise` for delta lobes.
 template <class Result, class Function>
 Result unless_delta(const Bsdf::Entry& entry, Result otherwise, const Function& function) {
-  return std::visit(
-      [&](const auto& lobe) {
-        if constexpr (std::decay_t<decltype(lobe)>::k_delta)
-          return otherwise;
-        else
-          return function(lobe);
-      },
-      entry.lobe);
+  return visit_lobe(entry.lobe, [&](const auto& lobe) {
+    if constexpr (std::decay_t<decltype(lobe)>::k_delta)
+      return otherwise;
+    else
+      return function(lobe);
+  });
 }
 
 /// The selected lobes and the energies that they are chosen by.
@@ -34,55 +35,87 @@ struct Choice {
   template <class Entries>
   Choice(const Entries& entries, Vec3 known, const LobeSelection& lobes) {
     for (std::size_t i = 0; i < entries.size(); ++i)
-      if (lobes.includes(roughness(entries[i]))) total += energies[i] = energy_of(entries[i], known);
+      if (lobes.includes(entries[i].roughness)) total += energies[i] = energy_of(entries[i], known);
+  }
+
+  struct Chosen {
+    std::size_t index;
+    float u;  // what is left of the random number, stretched to [0,1)
+  };
+  Chosen choose(float u_lobe) const {
+    if (total == 0) return {0, 0};
+    std::size_t chosen = 0;
+    float below = 0;
+    for (std::size_t i = 0; i < Bsdf::k_max_lobes; ++i) {
+      if (energies[i] == 0) continue;
+      chosen = i;
+      if (u_lobe * total < below + energies[i]) break;
+      below += energies[i];
+    }
+    return {chosen, std::clamp((u_lobe * total - below) / energies[chosen], 0.0f, k_one_minus_epsilon)};
+  }
+
+  /// Density of the directions that are sampled by this choice, 1/sr; total > 0.
+  template <class Entries>
+  float pdf_solid_angle(const Entries& entries, Vec3 known, Vec3 w) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (energies[i] > 0)
+        sum += energies[i] *
+               unless_delta(entries[i], 0.0f, [&](const auto& lobe) { return lobe.pdf_solid_angle(known, w); });
+    return sum / total;
   }
 };
 
 }  // namespace
 
 void Bsdf::add(const Bsdf& other, Rgb weight) {
-  for (const Entry& entry : other.entries_) entries_.push_back({entry.lobe, entry.weight * weight});
+  for (const Entry& entry : other.entries_) {
+    entries_.push_back(entry);
+    entries_.back().weight *= weight;
+  }
   straight_transmittance_ += other.straight_transmittance_ * weight;
 }
 
 Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
-  Rgb sum;
+  const Split f = eval_split(wo, wi, lobes);
+  return f.connectable + f.other;
+}
+
+Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
+  Split sum;
   for (const Entry& entry : entries_)
-    if (lobes.includes(roughness(entry)))
-      sum += entry.weight * unless_delta(entry, Rgb(), [&](const auto& lobe) { return lobe.eval(wo, wi); });
+    if (lobes.includes(entry.roughness))
+      (lobes.is_connectable(entry.roughness) ? sum.connectable : sum.other) +=
+          entry.weight * unless_delta(entry, Rgb(), [&](const auto& lobe) { return lobe.eval(wo, wi); });
   return sum;
 }
 
 std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                        Transport transport) const {
   const Choice choice(entries_, known, lobes);
-  if (choice.total == 0) return std::nullopt;
-  std::size_t chosen = 0;
-  float below = 0;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    if (choice.energies[i] == 0) continue;
-    chosen = i;
-    if (u_lobe * choice.total < below + choice.energies[i]) break;
-    below += choice.energies[i];
-  }
-  const Entry& entry = entries_[chosen];
-  const float u_choice =
-      std::clamp((u_lobe * choice.total - below) / choice.energies[chosen], 0.0f, k_one_minus_epsilon);
-  auto sample = std::visit([&](const auto& lobe) { return lobe.sample(known, u_choice, u, transport); }, entry.lobe);
-  if (!sample) return std::nullopt;
+  const auto [chosen, u_choice] = choice.choose(u_lobe);
+  const auto sample_lobe = [&, u_choice = u_choice](const auto& lobe) {
+    return lobe.sample(known, u_choice, u, transport);
+  };
+  auto sample = choice.total > 0 ? visit_lobe(entries_[chosen].lobe, sample_lobe) : std::optional<BsdfSample>();
+  if (!sample) return sample;
   if (choice.energies[chosen] == choice.total) {  // nothing to choose from
-    sample->weight *= entry.weight;
+    sample->weight *= entries_[chosen].weight;
     return sample;
   }
   if (sample->delta) {
     const float probability = choice.energies[chosen] / choice.total;
-    sample->weight *= entry.weight / probability;
+    sample->weight *= entries_[chosen].weight / probability;
     sample->pdf_solid_angle *= probability;
     return sample;
   }
   const Vec3 w = sample->direction;
-  sample->pdf_solid_angle = pdf_solid_angle(known, w, lobes);
-  if (!(sample->pdf_solid_angle > 0)) return std::nullopt;
+  sample->pdf_solid_angle = choice.pdf_solid_angle(entries_, known, w);
+  if (!(sample->pdf_solid_angle > 0)) {
+    sample.reset();
+    return sample;
+  }
   const Rgb f = transport == Transport::radiance ? eval(known, w, lobes) : eval(w, known, lobes);
   sample->weight = f * (std::abs(w.z) / sample->pdf_solid_angle);
   return sample;
@@ -90,13 +123,7 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const L
 
 float Bsdf::pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const {
   const Choice choice(entries_, known, lobes);
-  if (choice.total == 0) return 0;
-  float sum = 0;
-  for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (choice.energies[i] > 0)
-      sum += choice.energies[i] *
-             unless_delta(entries_[i], 0.0f, [&](const auto& lobe) { return lobe.pdf_solid_angle(known, w); });
-  return sum / choice.total;
+  return choice.total == 0 ? 0 : choice.pdf_solid_angle(entries_, known, w);
 }
 
 float Bsdf::energy(Vec3 known, const LobeSelection& lobes) const { return Choice(entries_, known, lobes).total; }
@@ -104,7 +131,7 @@ float Bsdf::energy(Vec3 known, const LobeSelection& lobes) const { return Choice
 ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) const {
   ReflectionBound sum;
   for (const Entry& entry : entries_) {
-    if (!lobes.is_connectable(roughness(entry))) continue;
+    if (!lobes.is_connectable(entry.roughness)) continue;
     const ReflectionBound bound =
         unless_delta(entry, ReflectionBound(), [&](const auto& lobe) { return lobe.reflection_bound(known); });
     sum += bound.scaled(max_channel(entry.weight));
@@ -115,7 +142,7 @@ ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) 
 ValueBound Bsdf::connectable_value_bound(Vec3 known, const LobeSelection& lobes) const {
   ValueBound sum;
   for (const Entry& entry : entries_) {
-    if (!lobes.is_connectable(roughness(entry))) continue;
+    if (!lobes.is_connectable(entry.roughness)) continue;
     const auto bound = unless_delta(entry, ValueBound(), [&](const auto& lobe) {
       if constexpr (requires { lobe.gloss_bound(known); })
         return ValueBound{0, lobe.gloss_bound(known)};
@@ -131,15 +158,14 @@ ValueBound Bsdf::connectable_value_bound(Vec3 known, const LobeSelection& lobes)
 
 bool Bsdf::has(const LobeSelection& lobes) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    if (!lobes.includes(roughness(entry))) return false;
+    if (!lobes.includes(entry.roughness)) return false;
     return !is_black(entry.weight * std::visit([](const auto& lobe) { return lobe.feature_albedo(); }, entry.lobe));
   });
 }
 
 bool Bsdf::transmits(const LobeSelection& lobes) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return lobes.includes(roughness(entry)) &&
-           std::visit([](const auto& lobe) { return lobe.k_transmits; }, entry.lobe);
+    return lobes.includes(entry.roughness) && std::visit([](const auto& lobe) { return lobe.k_transmits; }, entry.lobe);
   });
 }
 
@@ -152,7 +178,7 @@ float Bsdf::pass_probability(Vec3 known) const {
 std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) const {
   Rgb sum;
   for (const Entry& entry : entries_) {
-    if (!lobes.is_connectable(roughness(entry))) continue;
+    if (!lobes.is_connectable(entry.roughness)) continue;
     const auto* lambert = std::get_if<Lambert>(&entry.lobe);
     if (!lambert) return std::nullopt;
     if (known.z > 0) sum += entry.weight * lambert->albedo;

@@ -42,17 +42,29 @@ class Bsdf {
   static constexpr std::size_t k_max_lobes = 8;
   struct Entry {
     Lobe lobe;
-    Rgb weight;  ///< factor of the lobe's f
+    Rgb weight;       ///< factor of the lobe's f
+    float roughness;  ///< the lobe's, asked for by every call
+
+    template <class AnyLobe>
+    Entry(const AnyLobe& of, Rgb factor) : lobe(of), weight(factor), roughness(of.roughness()) {}
+  };
+  /// f by the lobes that it comes from.
+  struct Split {
+    Rgb connectable, other;
   };
 
   /// At most k_max_lobes.
-  void add(const Lobe& lobe, Rgb weight = Rgb(1)) { entries_.push_back({lobe, weight}); }
+  template <class AnyLobe>
+  void add(const AnyLobe& lobe, Rgb weight = Rgb(1)) {
+    entries_.emplace_back(lobe, weight);
+  }
   /// All lobes and the straight transmittance of another BSDF in the same frame, times `weight`.
   void add(const Bsdf& other, Rgb weight);
   void add_straight_transmittance(Rgb transmittance) { straight_transmittance_ += transmittance; }
 
   /// f, 1/sr, without the cosine, as radiance is scattered from wi to wo; 0 for delta lobes.
   Rgb eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
+  Split eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
   /// A direction for a known one; nullopt when nothing can be sampled. `u_lobe` in [0,1) chooses among lobes.
   std::optional<BsdfSample> sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                    Transport transport = Transport::radiance) const;

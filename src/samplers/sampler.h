@@ -5,6 +5,8 @@
 
 #include "core/hash.h"
 #include "core/vec.h"
+#include "samplers/independent.h"
+#include "samplers/sobol.h"
 
 namespace gradslc {
 
@@ -52,13 +54,32 @@ class SampleStream {
       : key_(hash_combine(seed, stream)), sample_(sample), kind_(kind) {}
 
   /// In [0,1), a multiple of 2^-24.
-  float get1(Use use, std::uint32_t index = 0) const;
+  float get1(Use use, std::uint32_t index = 0) const { return to_unit_float(bits1(use, index)); }
   /// Both in [0,1), multiples of 2^-24, stratified in two dimensions.
-  Vec2 get2(Use use, std::uint32_t index = 0) const;
+  Vec2 get2(Use use, std::uint32_t index = 0) const {
+    const SobolPoint bits = bits2(use, index);
+    return {to_unit_float(bits.x), to_unit_float(bits.y)};
+  }
   /// In [0,1), with 32 random bits: for choices among many, where a float is too coarse.
-  double get1_double(Use use, std::uint32_t index = 0) const;
+  double get1_double(Use use, std::uint32_t index = 0) const { return bits1(use, index) * 0x1p-32; }
 
  private:
+  /// Outputs of SplitMix64 seeded with the stream's key, by the number's name.
+  std::uint64_t named_key(Use use, std::uint32_t index) const {
+    return mix64(key_ + ((std::uint64_t{static_cast<std::uint16_t>(use)} << 32 | index) + 1) * k_golden_gamma);
+  }
+  std::uint32_t bits1(Use use, std::uint32_t index) const {
+    const std::uint64_t key = named_key(use, index);
+    return kind_ == SamplerKind::sobol ? sobol_coordinate(key, sample_)
+                                       : static_cast<std::uint32_t>(independent_bits(key, sample_) >> 32);
+  }
+  SobolPoint bits2(Use use, std::uint32_t index) const {
+    const std::uint64_t key = named_key(use, index);
+    if (kind_ == SamplerKind::sobol) return sobol_point(key, sample_);
+    const std::uint64_t bits = independent_bits(key, sample_);
+    return {static_cast<std::uint32_t>(bits >> 32), static_cast<std::uint32_t>(bits)};
+  }
+
   std::uint64_t key_;
   std::uint32_t sample_;
   SamplerKind kind_;

@@ -6,6 +6,19 @@
 #include "core/warp.h"
 
 namespace gradslc {
+namespace {
+
+/// A density per area as one per solid angle: times distance^2 / cosine at the emitter, whose normal is `n`; 0 where it
+/// does not face the reference.
+float to_solid_angle(double pdf_area, Normal3 n, Vec3 to_reference) {
+  const double squared = length_squared(to_reference);
+  const double projected = dot(n, to_reference);  // distance times cosine
+  if (!(projected > 0)) return 0;
+  const double pdf = pdf_area * squared * std::sqrt(squared) / projected;
+  return std::isfinite(pdf) ? static_cast<float>(pdf) : 0;
+}
+
+}  // namespace
 
 Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<AreaLight>& area_lights,
                    const std::vector<LightPtr>& lights, const BoundingSphere& scene)
@@ -22,8 +35,8 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
       const Point3 a = mesh.positions[i], b = mesh.positions[j], c = mesh.positions[k];
       TriangleShape shape = triangle_shape(a, b, c);
       if (mesh.flip_normals) shape.normal = -shape.normal;
-      triangles_.push_back({a, b, c, shape, radiance});
-      const double area = triangles_.back().area();
+      const double area = triangle_area(a, b, c);
+      triangles_.push_back({{a, b, c, shape}, radiance, area});
       weights.push_back(area * std::numbers::pi * luminance(radiance));
       for (int channel = 0; channel < 3; ++channel) power[channel] += area * std::numbers::pi * radiance[channel];
     }
@@ -41,6 +54,8 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
     mesh_first_.assign(meshes.size(), k_no_emitter);
     return;
   }
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    triangles_[i].pdf_area = by_power_.probability(i) / triangles_[i].area;
   power_ = {static_cast<float>(power[0]), static_cast<float>(power[1]), static_cast<float>(power[2])};
   for (std::size_t i = 0; i < lights_.size(); ++i)
     if (lights_[i]->is_environment())
@@ -50,33 +65,36 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
 std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_select, Vec2 u) const {
   if (empty()) return std::nullopt;
   const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
-  if (choice.index < triangles_.size()) return sample_triangle(choice.index, reference, u);
+  if (choice.index < triangles_.size()) return sample_triangle(triangles_[choice.index], reference, u);
   auto sample = lights_[choice.index - triangles_.size()]->sample_direct(reference, u);
   if (sample) sample->pdf_solid_angle *= static_cast<float>(choice.probability);
   return sample;
 }
 
-std::optional<DirectSample> Emitters::sample_triangle(std::size_t index, Point3 reference, Vec2 u) const {
-  const EmissiveTriangle& triangle = triangles_[index];
+std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& emitter, Point3 reference, Vec2 u) {
   const Vec2 b = square_to_triangle(u);
-  const TrianglePosition point = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
-  const float pdf = pdf_solid_angle(index, reference, point.position);
-  if (!(pdf > 0)) return std::nullopt;
-  const Vec3 to_emitter = point.position - reference;
-  return DirectSample{.wi = normalize(to_emitter),
-                      .radiance = triangle.radiance,
-                      .pdf_solid_angle = pdf,
-                      .position = offset_position(point.position, triangle.shape.normal, point.error, -to_emitter)};
+  const auto [position, error] = triangle_position(emitter.triangle, b.x, b.y);
+  const Normal3 n = emitter.triangle.shape.normal;
+  const Vec3 to_emitter = position - reference;
+  const float pdf = to_solid_angle(emitter.pdf_area, n, -to_emitter);
+  std::optional<DirectSample> sample;
+  if (!(pdf > 0)) return sample;
+  sample.emplace();
+  sample->pdf_solid_angle = pdf;
+  sample->wi = normalize(to_emitter);
+  sample->radiance = emitter.radiance;
+  sample->position = offset_position(position, n, error, -to_emitter);
+  return sample;
 }
 
 float Emitters::pdf_direct(Point3 reference, const SurfacePoint& hit) const {
-  const std::size_t index = find(hit);
-  return index == k_none ? 0 : pdf_solid_angle(index, reference, hit.position);
+  const EmissiveTriangle* emitter = find(hit);
+  return emitter ? to_solid_angle(emitter->pdf_area, emitter->triangle.shape.normal, reference - hit.position) : 0;
 }
 
 Rgb Emitters::radiance(const SurfacePoint& hit, Vec3 wo) const {
-  const std::size_t index = find(hit);
-  return index != k_none && dot(triangles_[index].shape.normal, wo) > 0 ? triangles_[index].radiance : Rgb();
+  const EmissiveTriangle* emitter = find(hit);
+  return emitter && dot(emitter->triangle.shape.normal, wo) > 0 ? emitter->radiance : Rgb();
 }
 
 EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_direction) const {
@@ -84,37 +102,25 @@ EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_d
   const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
   EmissionSample sample =
       choice.index < triangles_.size()
-          ? sample_triangle_emission(choice.index, u_point, u_direction)
+          ? sample_triangle_emission(triangles_[choice.index], u_point, u_direction)
           : lights_[choice.index - triangles_.size()]->sample_emission(u_point, u_direction, scene_);
   sample.power *= static_cast<float>(1 / choice.probability);
   return sample;
 }
 
-EmissionSample Emitters::sample_triangle_emission(std::size_t index, Vec2 u_point, Vec2 u_direction) const {
-  const EmissiveTriangle& triangle = triangles_[index];
+EmissionSample Emitters::sample_triangle_emission(const EmissiveTriangle& emitter, Vec2 u_point, Vec2 u_direction) {
   const Vec2 b = square_to_triangle(u_point);
-  const auto [position, error] = triangle_position(triangle.a, triangle.b, triangle.c, triangle.shape, b.x, b.y);
-  const Vec3 direction = frame_from_normal(triangle.shape.normal).to_world(square_to_cosine_hemisphere(u_direction));
+  const auto [position, error] = triangle_position(emitter.triangle, b.x, b.y);
+  const Normal3 n = emitter.triangle.shape.normal;
+  const Vec3 direction = frame_from_normal(n).to_world(square_to_cosine_hemisphere(u_direction));
   // Le cos / (1 / area * cos / pi)
-  const auto flux = static_cast<float>(std::numbers::pi * triangle.area());
-  return {{offset_position(position, triangle.shape.normal, error, direction), direction}, flux * triangle.radiance};
+  const auto flux = static_cast<float>(std::numbers::pi * emitter.area);
+  return {{offset_position(position, n, error, direction), direction}, flux * emitter.radiance};
 }
 
-std::size_t Emitters::find(const SurfacePoint& hit) const {
-  if (hit.mesh >= mesh_first_.size() || mesh_first_[hit.mesh] == k_no_emitter) return k_none;
-  return mesh_first_[hit.mesh] + hit.triangle;
-}
-
-/// The density per area, probability / area, times distance^2 / cosine at the emitter; 0 where it does not face the
-/// reference.
-float Emitters::pdf_solid_angle(std::size_t index, Point3 reference, Point3 position) const {
-  const EmissiveTriangle& triangle = triangles_[index];
-  const Vec3 to_reference = reference - position;
-  const double squared = length_squared(to_reference);
-  const double projected = dot(triangle.shape.normal, to_reference);  // distance times cosine
-  if (!(projected > 0)) return 0;
-  const double pdf = by_power_.probability(index) / triangle.area() * squared * std::sqrt(squared) / projected;
-  return std::isfinite(pdf) ? static_cast<float>(pdf) : 0;
+const Emitters::EmissiveTriangle* Emitters::find(const SurfacePoint& hit) const {
+  if (hit.mesh >= mesh_first_.size() || mesh_first_[hit.mesh] == k_no_emitter) return nullptr;
+  return &triangles_[mesh_first_[hit.mesh] + hit.triangle];
 }
 
 }  // namespace gradslc

@@ -55,16 +55,14 @@ class Emitters {
 
  private:
   struct EmissiveTriangle {
-    Point3 a, b, c;
-    TriangleShape shape;  // its normal on the emitting side
+    Triangle triangle;  // its normal on the emitting side
     Rgb radiance;
-    double area() const { return shape.double_area / 2; }
+    double area;
+    double pdf_area = 0;  // of sample_direct(), the triangle's choice included
   };
-  static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
-  std::size_t find(const SurfacePoint& hit) const;  // index into triangles_ or k_none
-  float pdf_solid_angle(std::size_t index, Point3 reference, Point3 position) const;
-  std::optional<DirectSample> sample_triangle(std::size_t index, Point3 reference, Vec2 u) const;
-  EmissionSample sample_triangle_emission(std::size_t index, Vec2 u_point, Vec2 u_direction) const;
+  const EmissiveTriangle* find(const SurfacePoint& hit) const;  // null: it does not emit
+  static std::optional<DirectSample> sample_triangle(const EmissiveTriangle& emitter, Point3 reference, Vec2 u);
+  static EmissionSample sample_triangle_emission(const EmissiveTriangle& emitter, Vec2 u_point, Vec2 u_direction);
 
   std::vector<EmissiveTriangle> triangles_;  // all triangles of the meshes that emit, mesh by mesh
   std::vector<std::uint32_t> mesh_first_;    // per mesh: index of its first emissive triangle, or k_no_emitter

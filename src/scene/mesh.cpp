@@ -61,26 +61,39 @@ std::vector<Block> cut_into_blocks(const std::vector<TriangleMesh>& meshes) {
   return blocks;
 }
 
-void compute_shapes(const TriangleMesh& mesh, std::vector<TriangleShape>& shapes, Block& block) {
+void make_room(const TriangleMesh& mesh, PreparedMesh& prepared) {
+  prepared.material = mesh.material;
+  prepared.has_normals = !mesh.normals.empty();
+  prepared.has_uvs = !mesh.uvs.empty();
+  prepared.triangles.resize(mesh.triangles.size());
+}
+
+void prepare_triangles(const TriangleMesh& mesh, PreparedMesh& prepared, Block& block) {
   for (std::size_t i = block.begin; i < std::min(block.end, mesh.triangles.size()); ++i) {
     const auto& t = mesh.triangles[i];
-    shapes[i] = triangle_shape(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-    if (mesh.flip_normals) shapes[i].normal = -shapes[i].normal;
-    if (shapes[i].double_area == 0) continue;
+    PreparedTriangle& triangle = prepared.triangles[i];
+    triangle.a = mesh.positions[t[0]], triangle.b = mesh.positions[t[1]], triangle.c = mesh.positions[t[2]];
+    triangle.shape = triangle_shape(triangle.a, triangle.b, triangle.c);
+    if (mesh.flip_normals) triangle.shape.normal = -triangle.shape.normal;
+    if (!triangle.shape.has_area()) continue;
     for (const std::uint32_t vertex : t) block.bounds.extend(mesh.positions[vertex]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (prepared.has_normals) triangle.normals[k] = mesh.normals[t[k]];
+      if (prepared.has_uvs) triangle.uvs[k] = mesh.uvs[t[k]];
+    }
   }
 }
 
-void remove_empty_triangles(TriangleMesh& mesh, std::vector<TriangleShape>& shapes) {
+void remove_empty_triangles(TriangleMesh& mesh, PreparedMesh& prepared) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].double_area == 0) continue;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!prepared.triangles[i].shape.has_area()) continue;
     mesh.triangles[kept] = mesh.triangles[i];
-    shapes[kept] = shapes[i];
+    prepared.triangles[kept] = prepared.triangles[i];
     ++kept;
   }
   mesh.triangles.resize(kept);
-  shapes.resize(kept);
+  prepared.triangles.resize(kept);
 }
 
 }  // namespace
@@ -100,18 +113,17 @@ void check_mesh(const TriangleMesh& mesh) {
 PreparedMeshes prepare_meshes(std::vector<TriangleMesh>& meshes) {
   for (const TriangleMesh& mesh : meshes) check_sizes(mesh);
   PreparedMeshes prepared;
-  prepared.shapes.resize(meshes.size());
-  parallel_for(meshes.size(), 1,
-               [&](std::size_t m, std::size_t) { prepared.shapes[m].resize(meshes[m].triangles.size()); });
+  prepared.meshes.resize(meshes.size());
+  parallel_for(meshes.size(), 1, [&](std::size_t m, std::size_t) { make_room(meshes[m], prepared.meshes[m]); });
   std::vector<Block> blocks = cut_into_blocks(meshes);
   parallel_for(blocks.size(), 1, [&](std::size_t i, std::size_t) {
     Block& block = blocks[i];
     check_values(meshes[block.mesh], block.begin, block.end);
-    compute_shapes(meshes[block.mesh], prepared.shapes[block.mesh], block);
+    prepare_triangles(meshes[block.mesh], prepared.meshes[block.mesh], block);
   });
   for (const Block& block : blocks) prepared.bounds.extend(block.bounds);
   parallel_for(meshes.size(), 1,
-               [&](std::size_t m, std::size_t) { remove_empty_triangles(meshes[m], prepared.shapes[m]); });
+               [&](std::size_t m, std::size_t) { remove_empty_triangles(meshes[m], prepared.meshes[m]); });
   return prepared;
 }
 

@@ -30,13 +30,26 @@ struct TriangleMesh {
 /// normals or uvs differs from that of the positions.
 void check_mesh(const TriangleMesh& mesh);
 
+/// A triangle as hits need it, in two adjacent cache lines, without a detour through vertex indices: in large scenes
+/// what a hit costs is the memory that it must wait for.
+struct alignas(128) PreparedTriangle : Triangle {
+  std::array<Normal3, 3> normals;  ///< of the corners a, b, c, where the mesh has normals
+  std::array<Vec2, 3> uvs;         ///< alike
+};
+
+struct PreparedMesh {
+  std::vector<PreparedTriangle> triangles;  ///< normals on the mesh's side (flip_normals)
+  bool has_normals = false, has_uvs = false;
+  std::uint32_t material = 0;
+};
+
 /// What is made of a scene's meshes once.
 struct PreparedMeshes {
-  std::vector<std::vector<TriangleShape>> shapes;  ///< by mesh and triangle; normals on the mesh's side (flip_normals)
+  std::vector<PreparedMesh> meshes;
   Bounds3 bounds;
 };
-/// Checks the meshes as check_mesh() does, drops the triangles without area, which nothing can hit, and computes the
-/// others' shapes; on all threads, within large meshes too. The Error is that of the first mesh that has one.
+/// Checks the meshes as check_mesh() does, drops the triangles without area, which nothing can hit, and prepares the
+/// others; on all threads, within large meshes too. The Error is that of the first mesh that has one.
 PreparedMeshes prepare_meshes(std::vector<TriangleMesh>& meshes);
 
 }  // namespace gradslc

@@ -26,20 +26,21 @@ struct SceneRelease {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 
-RTCRay to_embree(const Ray& ray) {
-  RTCRay out{};
+// Into its place: copies of values that have just been written in smaller pieces make the processor wait.
+void to_embree(const Ray& ray, RTCRay& out) {
   out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
   out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
   // Distances start above 0: where a ray starts exactly on another surface's plane, as in corners, that is no hit.
   out.tnear = std::numeric_limits<float>::min();
   out.tfar = ray.max_distance;
+  out.time = 0;
   out.mask = 0xffffffffu;
-  return out;
+  out.id = out.flags = 0;
 }
 
-Vec2 interpolate_uv(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, float b1, float b2) {
-  if (mesh.uvs.empty()) return {b1, b2};
-  return (1 - b1 - b2) * mesh.uvs[t[0]] + b1 * mesh.uvs[t[1]] + b2 * mesh.uvs[t[2]];
+Vec2 interpolate_uv(const PreparedTriangle& triangle, float b1, float b2) {
+  const auto& [a, b, c] = triangle.uvs;
+  return (1 - b1 - b2) * a + b1 * b + b2 * c;
 }
 
 /// dp/du and dp/dv of a triangle, zero where the uvs are degenerate.
@@ -53,13 +54,11 @@ MaterialPoint with_derivatives(const TriangleMesh& mesh, const std::array<std::u
 }
 
 /// The interpolated normal; the geometric one where there is none.
-Normal3 shading_normal(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t, float b1, float b2,
-                       Normal3 geometric) {
-  if (mesh.normals.empty()) return geometric;
-  const Vec3 sum =
-      (1 - b1 - b2) * as_vec(mesh.normals[t[0]]) + b1 * as_vec(mesh.normals[t[1]]) + b2 * as_vec(mesh.normals[t[2]]);
+Normal3 interpolate_normal(const PreparedTriangle& triangle, float b1, float b2) {
+  const auto& [a, b, c] = triangle.normals;
+  const Vec3 sum = (1 - b1 - b2) * as_vec(a) + b1 * as_vec(b) + b2 * as_vec(c);
   const float squared = length_squared(sum);
-  if (!(squared > 0)) return geometric;
+  if (!(squared > 0)) return triangle.shape.normal;
   return as_normal(sum / std::sqrt(squared));
 }
 
@@ -73,7 +72,8 @@ struct ShadowQuery {
   explicit ShadowQuery(bool skip_crossings) : skips_crossings(skip_crossings) { rtcInitIntersectContext(&context); }
 
   bool finds_blocker(RTCScene scene, const Ray& ray) {
-    RTCRay shadow = to_embree(ray);
+    RTCRay shadow;
+    to_embree(ray, shadow);
     rtcOccluded1(scene, &context, &shadow);
     return shadow.tfar < 0;
   }
@@ -156,9 +156,9 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
       throw_input_error("", fmt::format("mesh \"{}\": has area light {}, there are {}", mesh.name, mesh.area_light,
                                         description_.area_lights.size()));
   }
-  auto [shapes, bounds] = prepare_meshes(description_.meshes);
-  shapes_ = std::move(shapes);
-  bounds_ = bounds;
+  PreparedMeshes prepared = prepare_meshes(description_.meshes);
+  prepared_ = std::move(prepared.meshes);
+  bounds_ = prepared.bounds;
   for (const MaterialPtr& material : description_.materials) {
     needs_derivatives_.push_back(material->needs_derivatives());
     crosses_.push_back(material->crosses());
@@ -173,44 +173,48 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
-  RTCRayHit hit{};
-  hit.ray = to_embree(ray);
+  RTCRayHit hit;
+  to_embree(ray, hit.ray);
   hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(embree_->scene.get(), &context, &hit);
-  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  std::optional<SurfacePoint> point;
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return point;
 
-  const TriangleMesh& mesh = description_.meshes[hit.hit.geomID];
-  const auto& t = mesh.triangles[hit.hit.primID];
-  const Point3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+  const PreparedMesh& mesh = prepared_[hit.hit.geomID];
+  const PreparedTriangle& triangle = mesh.triangles[hit.hit.primID];
   const float b1 = hit.hit.u, b2 = hit.hit.v;
-  const TriangleShape& shape = shapes_[hit.hit.geomID][hit.hit.primID];
-  const Normal3 normal = shape.normal;
-  const auto [position, error] = triangle_position(a, b, c, shape, b1, b2);
-  const Normal3 shading = shading_normal(mesh, t, b1, b2, normal);
-  return SurfacePoint{position,
-                      shading,
-                      face_forward(normal, as_vec(shading)),
-                      interpolate_uv(mesh, t, b1, b2),
-                      hit.hit.geomID,
-                      hit.hit.primID,
-                      mesh.material,
-                      error};
+  const auto [position, error] = triangle_position(triangle, b1, b2);
+  point.emplace();
+  point->position = position;
+  point->error = error;
+  point->shading_normal = point->geometric_normal = triangle.shape.normal;
+  point->uv = {b1, b2};
+  if (mesh.has_uvs) point->uv = interpolate_uv(triangle, b1, b2);
+  if (mesh.has_normals) {
+    point->shading_normal = interpolate_normal(triangle, b1, b2);
+    point->geometric_normal = face_forward(triangle.shape.normal, as_vec(point->shading_normal));
+  }
+  point->mesh = hit.hit.geomID;
+  point->triangle = hit.hit.primID;
+  point->material = mesh.material;
+  return point;
 }
 
-ShadedPoint Scene::shade(const SurfacePoint& point, Vec3 wo) const {
-  Shading shading;
+void Scene::shade(const SurfacePoint& point, Vec3 wo, ShadedPoint& shaded) const {
+  shaded.point = point;
   MaterialPoint at{point.uv, Vec3(), Vec3()};
   if (needs_derivatives_[point.material]) {
     const TriangleMesh& mesh = description_.meshes[point.mesh];
     at = with_derivatives(mesh, mesh.triangles[point.triangle], point.uv);
-    shading.frame = frame_from_normal_and_tangent(point.shading_normal, at.dp_du);
+    shaded.frame = frame_from_normal_and_tangent(point.shading_normal, at.dp_du);
   } else {
-    shading.frame = frame_from_normal(point.shading_normal);
+    shaded.frame = frame_from_normal(point.shading_normal);
   }
-  description_.materials[point.material]->shade(at, wo, shading);
-  return {point, shading.frame, shading.bsdf, shading.frame.to_local(wo)};
+  description_.materials[point.material]->shade(at, wo, shaded);
+  shaded.wo = shaded.frame.to_local(wo);
 }
 
 bool Scene::occluded(const Ray& ray) const { return ShadowQuery(false).finds_blocker(embree_->scene.get(), ray); }
@@ -259,8 +263,8 @@ std::size_t Scene::memory_bytes() const {
   std::size_t bytes = static_cast<std::size_t>(embree_->bytes.load());
   for (const TriangleMesh& mesh : description_.meshes)
     bytes += mesh.positions.size() * sizeof(Point3) + mesh.normals.size() * sizeof(Normal3) +
-             mesh.uvs.size() * sizeof(Vec2) +
-             mesh.triangles.size() * (sizeof(mesh.triangles[0]) + sizeof(TriangleShape));
+             mesh.uvs.size() * sizeof(Vec2) + mesh.triangles.size() * sizeof(mesh.triangles[0]);
+  for (const PreparedMesh& mesh : prepared_) bytes += mesh.triangles.size() * sizeof(PreparedTriangle);
   return bytes;
 }
 

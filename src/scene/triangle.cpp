@@ -1,14 +1,7 @@
 #include "scene/triangle.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace gradslc {
 namespace {
-
-constexpr double k_unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
-constexpr double k_plane_roundings = 12;  // k of triangle_position()
 
 struct Double3 {
   double x, y, z;
@@ -24,10 +17,10 @@ double length(Double3 a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); 
 TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
   const Double3 ab = subtract(b, a), ac = subtract(c, a);
   const Double3 n = cross(ab, ac);
+  const double double_area = length(n);
   TriangleShape shape;
-  shape.double_area = length(n);
-  if (!(shape.double_area > 0)) return shape;
-  const double per_area = 1 / shape.double_area;
+  if (!(double_area > 0)) return shape;
+  const double per_area = 1 / double_area;
   shape.normal = {static_cast<float>(n.x * per_area), static_cast<float>(n.y * per_area),
                   static_cast<float>(n.z * per_area)};
   const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
@@ -38,23 +31,6 @@ TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
   return shape;
 }
 
-TrianglePosition triangle_position(Point3 a, Point3 b, Point3 c, const TriangleShape& shape, float b1, float b2) {
-  const Double3 ab = subtract(b, a), ac = subtract(c, a);
-  const double w1 = std::clamp(double{b1}, 0.0, 1.0);
-  const double w2 = std::clamp(double{b2}, 0.0, 1.0 - w1);
-  const Normal3 n = shape.normal;
-  const double rounding = std::abs(n.x * (a.x + w1 * ab.x + w2 * ac.x)) +
-                          std::abs(n.y * (a.y + w1 * ab.y + w2 * ac.y)) + std::abs(n.z * (a.z + w1 * ab.z + w2 * ac.z));
-  const double error = k_unit_roundoff * (2 * rounding + k_plane_roundings * static_cast<double>(shape.extent));
-
-  const auto inset = [&](int corner) {
-    return std::min(error * static_cast<double>(shape.height_inverse[corner]), 1.0 / 3);
-  };
-  const double inset1 = inset(1), inset2 = inset(2);
-  const double kept = 1 - inset(0) - inset1 - inset2;
-  const double v1 = inset1 + kept * w1, v2 = inset2 + kept * w2;
-  const auto at = [&](float origin, double u, double v) { return static_cast<float>(origin + v1 * u + v2 * v); };
-  return {{at(a.x, ab.x, ac.x), at(a.y, ab.y, ac.y), at(a.z, ab.z, ac.z)}, static_cast<float>(error)};
-}
+double triangle_area(Point3 a, Point3 b, Point3 c) { return length(cross(subtract(b, a), subtract(c, a))) / 2; }
 
 }  // namespace gradslc

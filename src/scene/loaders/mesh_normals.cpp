@@ -9,10 +9,10 @@
 namespace gradslc {
 namespace {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using VertexTriple = std::array<std::uint32_t, 3>;
 
 /// Any length; zero where the triangle has no area. In double, so that it does not vanish for small triangles.
-std::array<double, 3> edge_cross(const TriangleMesh& mesh, const Triangle& t) {
+std::array<double, 3> edge_cross(const TriangleMesh& mesh, const VertexTriple& t) {
   const Point3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
   const double ab[3] = {double{b.x} - a.x, double{b.y} - a.y, double{b.z} - a.z};
   const double ac[3] = {double{c.x} - a.x, double{c.y} - a.y, double{c.z} - a.z};
@@ -20,7 +20,7 @@ std::array<double, 3> edge_cross(const TriangleMesh& mesh, const Triangle& t) {
 }
 
 /// Unit; zero where the triangle has no area.
-Vec3 unit_normal(const TriangleMesh& mesh, const Triangle& t) {
+Vec3 unit_normal(const TriangleMesh& mesh, const VertexTriple& t) {
   const auto [x, y, z] = edge_cross(mesh, t);
   const double length = std::sqrt(x * x + y * y + z * z);
   if (!(length > 0)) return {};
@@ -59,7 +59,7 @@ std::vector<Corner> sorted_corners(const TriangleMesh& mesh) {
 
 void compute_normals(TriangleMesh& mesh) {
   std::vector<Vec3> sums(mesh.positions.size());
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const VertexTriple& triangle : mesh.triangles) {
     const Vec3 normal = unit_normal(mesh, triangle);
     if (normal == Vec3()) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,7 +78,7 @@ void compute_creased_normals(TriangleMesh& mesh, double max_angle) {
   const auto min_cosine = static_cast<float>(std::cos(max_angle * std::numbers::pi / 180));
   std::vector<Vec3> normals;
   normals.reserve(mesh.triangles.size());
-  for (const Triangle& triangle : mesh.triangles) normals.push_back(unit_normal(mesh, triangle));
+  for (const VertexTriple& triangle : mesh.triangles) normals.push_back(unit_normal(mesh, triangle));
 
   const std::vector<Corner> corners = sorted_corners(mesh);
   TriangleMesh split;
@@ -108,7 +108,7 @@ void compute_creased_normals(TriangleMesh& mesh, double max_angle) {
 }
 
 void wind_by_normals(TriangleMesh& mesh) {
-  for (Triangle& triangle : mesh.triangles) {
+  for (VertexTriple& triangle : mesh.triangles) {
     const auto& [i, j, k] = triangle;
     const Vec3 sum = as_vec(mesh.normals[i]) + as_vec(mesh.normals[j]) + as_vec(mesh.normals[k]);
     const auto [x, y, z] = edge_cross(mesh, triangle);

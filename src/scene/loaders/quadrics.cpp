@@ -22,7 +22,7 @@ float fraction(double numerator, std::uint32_t denominator) { return static_cast
 double area(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& [i, j, k] : mesh.triangles)
-    sum += triangle_shape(mesh.positions[i], mesh.positions[j], mesh.positions[k]).double_area / 2;
+    sum += triangle_area(mesh.positions[i], mesh.positions[j], mesh.positions[k]);
   return sum;
 }
 

@@ -128,11 +128,13 @@ TEST(PrepareMeshes, DropsTrianglesWithoutAreaAndKeepsTheOthersInOrder) {
   }
   const PreparedMeshes prepared = prepare_meshes(meshes);
   ASSERT_EQ(mesh.triangles.size(), 20000u);
-  ASSERT_EQ(prepared.shapes[0].size(), 20000u);
+  const std::vector<PreparedTriangle>& triangles = prepared.meshes[0].triangles;
+  ASSERT_EQ(triangles.size(), 20000u);
   for (std::size_t i = 0; i < 20000; ++i) {
     ASSERT_EQ(mesh.triangles[i][0], i % 2 == 0 ? 0u : 2u);
-    ASSERT_EQ(prepared.shapes[0][i].normal.z, i % 2 == 0 ? -1 : 1);
-    ASSERT_EQ(prepared.shapes[0][i].double_area, 2);
+    ASSERT_EQ(triangles[i].shape.normal.z, i % 2 == 0 ? -1 : 1);
+    ASSERT_EQ(triangles[i].a, (i % 2 == 0 ? Point3{0, 0, 0} : Point3{0, 2, 0}));
+    ASSERT_TRUE(triangles[i].shape.has_area());
   }
   EXPECT_EQ(prepared.bounds.upper, (Point3{1, 2, 0}));
 }
