@@ -86,11 +86,25 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
   return gather;
 }
 
-void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                         PartValues& radiance) {
+float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
+                          PartValues& radiance, float mean_rays) {
   add_next_event(context, *prefix.gather, context.lobes.only_connectable(), context.settings.max_depth,
                  LabelledThroughput::camera_path(prefix.throughput), nullptr, radiance);
-  add_compensation(context, prefix, gather, radiance);
+  PartValues brought;
+  if (mean_rays == 1) {
+    add_compensation(context, prefix, gather, brought);
+  } else {
+    const auto count = static_cast<std::uint32_t>(mean_rays + context.random.get1(Use::ray_count));
+    const SampleStream random = context.random;
+    for (std::uint32_t ray = 0; ray < count; ++ray) {
+      context.random = random.branch(ray);
+      add_compensation(context, prefix, gather, brought);
+    }
+    context.random = random;
+    brought *= 1 / mean_rays;
+  }
+  radiance += brought;
+  return luminance(brought.total());
 }
 
 }  // namespace gradslc

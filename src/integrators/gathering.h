@@ -23,10 +23,11 @@ inline bool vpl_may_count(const PathContext& context, const PathVertex& x, const
   return connection_may_count(context, connection_edges(x, y), context.settings.max_depth);
 }
 
-/// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the one ray
-/// through f_c(x) that brings emitters (weighted against next-event estimation), f_s(y) with weight 1 and f_c(y) with
-/// what bounding has taken.
-void gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                         PartValues& radiance);
+/// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the ray through
+/// f_c(x) that brings emitters (weighted against next-event estimation), f_s(y) with weight 1 and f_c(y) with what
+/// bounding has taken. `mean_rays` > 0 of these rays are sent on average: their number is rounded at random, and what
+/// they bring divided by the mean. Returns the luminance that they brought, all parts together.
+float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
+                          PartValues& radiance, float mean_rays = 1);
 
 }  // namespace gradslc

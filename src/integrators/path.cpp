@@ -3,8 +3,8 @@
 namespace gradslc {
 
 PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings, const LobeSelection& lobes,
-                              const PassSlot& slot, std::size_t pixel_index) {
-  const std::uint64_t seed = derive_seed(settings.seed, SeedPurpose::camera, slot.half);
+                              const PassSlot& slot, std::size_t pixel_index, SeedPurpose purpose) {
+  const std::uint64_t seed = derive_seed(settings.seed, purpose, slot.half);
   const PathContext context{scene, settings, lobes, SampleStream(settings.sampler, seed, pixel_index, slot.sample)};
   const Pixel pixel = scene.camera().resolution().pixel(pixel_index);
   return {context, film_position(pixel, context.random.get2(Use::pixel))};

@@ -27,7 +27,7 @@ struct PixelSample {
   Vec2 film_position;
 };
 PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings, const LobeSelection& lobes,
-                              const PassSlot& slot, std::size_t pixel_index);
+                              const PassSlot& slot, std::size_t pixel_index, SeedPurpose purpose = SeedPurpose::camera);
 
 /// The film position at `offset` from a pixel's upper left corner.
 inline Vec2 film_position(Pixel pixel, Vec2 offset) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "core/image.h"
 #include "core/parameters.h"
@@ -23,30 +23,38 @@ inline void describe(ParameterVisitor& v, RayAllocationParameters& p) {
 
 /// Finds the numbers that give the least error for the time: a pass of relative variance V and cost C in units of rays,
 /// whose rays of relative second moment m in a cell of 8 x 8 pixels are sent n times, has an error x time of
-/// (V + mean(m / n)) (C + mean(n)), least for n = sqrt(m C / V) cell by cell. Relative: to I^2 + 0.01 mean(I)^2.
+/// (V + mean(m / n)) (C + mean(n)), least for n = sqrt(m C / V) cell by cell. Relative: to I^2 + 0.01 mean(I)^2. The
+/// numbers are a function of the pilot passes alone, so that any later pass can be rendered again by itself.
 class RayAllocation {
  public:
-  explicit RayAllocation(Resolution resolution) : pixels_(resolution) {}
+  /// At least one pilot pass.
+  RayAllocation(Resolution resolution, const RayAllocationParameters& parameters);
 
-  /// One sample of a pilot pass: luminance of the pixel, and of what its ray brought. Pixels may come from any thread.
-  void add(Pixel pixel, float total, float brought) {
-    PixelSums& sums = pixels_[pixel];
-    const double value = static_cast<double>(total), ray = static_cast<double>(brought);
-    sums.total += value, sums.total2 += value * value, sums.ray2 += ray * ray, ++sums.count;
+  /// One sample of a pilot pass: luminance of the pixel, and of what its one ray brought. From any thread.
+  void add(int pass, Pixel pixel, float total, float brought) {
+    passes_[static_cast<std::size_t>(pass)].samples[pixel] = {total, brought};
   }
-  /// After the pilot passes, once.
-  void close(const RayAllocationParameters& parameters);
+  void finish_pass(int pass) { passes_[static_cast<std::size_t>(pass)].finished = true; }
+  bool has_pass(int pass) const { return passes_[static_cast<std::size_t>(pass)].finished; }
+  /// When all pilot passes are finished; then rays() is valid.
+  void close();
+  bool closed() const { return closed_; }
   /// Mean number of rays of a gather, > 0.
   float rays(Pixel pixel) const { return cells_[{pixel.x / k_cell, pixel.y / k_cell}]; }
 
  private:
   static constexpr int k_cell = 8;
-  struct PixelSums {
-    double total = 0, total2 = 0, ray2 = 0;
-    std::uint32_t count = 0;
+  struct Sample {
+    float total = 0, brought = 0;
   };
-  Image<PixelSums> pixels_;
+  struct Pass {
+    Image<Sample> samples;
+    bool finished = false;
+  };
+  RayAllocationParameters parameters_;
+  std::vector<Pass> passes_;
   Image<float> cells_;
+  bool closed_ = false;
 };
 
 }  // namespace gradslc

@@ -1,7 +1,9 @@
 #include <mutex>
+#include <optional>
 
 #include "core/parallel.h"
 #include "integrators/cut_gather.h"
+#include "integrators/ray_allocation.h"
 #include "integrators/record.h"
 #include "integrators/registry.h"
 #include "integrators/tile_gather.h"
@@ -22,22 +24,24 @@ class StochasticLightcuts final : public Integrator {
              "how VPLs are selected: per pixel by descent from a cut (as published), or among a tile's candidates");
     v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "descent: nodes of the cut, and so shadow rays of a gather");
     v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
+    v.group("compensation", "tile: the rays that bring what bounding takes",
+            [&] { gradslc::describe(v, ray_parameters_); });
     source_.describe(v);
   }
 
   void prepare(const Scene& scene, const RenderSettings& settings) override {
     scene_ = &scene, settings_ = settings;
+    allocation_.reset();
     source_.prepare(scene, settings);
     gather_ = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth);
   }
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
-    const LightTree& tree = source_.vpls_of(slot);
     if (gather_kind_ == Gather::descent)
-      render_pixels(slot, tree, film);
+      render_pixels(slot, source_.vpls_of(slot), film);
     else
-      render_tiles(slot, tree, film);
+      render_tiles(pass, film);
     if (slot.closes_set) film.close_set(slot.half);
   }
 
@@ -85,8 +89,38 @@ class StochasticLightcuts final : public Integrator {
     });
   }
 
-  /// Tiles lie at an offset drawn anew for each pass, so that their borders move.
-  void render_tiles(const PassSlot& slot, const LightTree& tree, Film& film) {
+  /// Pilot passes send one ray a gather, and note what it brings; later ones as many as the pilots say, with random
+  /// numbers that are independent of the pilots'.
+  void render_tiles(std::uint32_t pass, Film& film) {
+    const auto pilots = static_cast<std::uint32_t>(ray_parameters_.pilot_passes);
+    if (pilots == 0)
+      return render_tiles(
+          pass, film, SeedPurpose::camera, [](Pixel) { return 1.0f; }, [](auto...) {});
+    if (!allocation_) allocation_.emplace(film.resolution(), ray_parameters_);
+    if (pass < pilots) return render_pilot(static_cast<int>(pass), film);
+    for (int pilot = 0; pilot < ray_parameters_.pilot_passes; ++pilot) {
+      if (allocation_->has_pass(pilot)) continue;
+      Film unused(film.resolution(), {});  // this run has not begun at its first pass
+      render_pilot(pilot, unused);
+    }
+    if (!allocation_->closed()) allocation_->close();
+    render_tiles(
+        pass, film, SeedPurpose::adapted_camera, [&](Pixel pixel) { return allocation_->rays(pixel); }, [](auto...) {});
+  }
+
+  void render_pilot(int pass, Film& film) {
+    render_tiles(
+        static_cast<std::uint32_t>(pass), film, SeedPurpose::camera, [](Pixel) { return 1.0f; },
+        [&](Pixel pixel, float total, float brought) { allocation_->add(pass, pixel, total, brought); });
+    allocation_->finish_pass(pass);
+  }
+
+  /// Tiles lie at an offset drawn anew for each pass, so that their borders move. `mean_rays`(pixel): of a gather;
+  /// `note`(pixel, luminance of the sample, luminance that the rays brought).
+  template <class MeanRays, class Note>
+  void render_tiles(std::uint32_t pass, Film& film, SeedPurpose camera, const MeanRays& mean_rays, const Note& note) {
+    const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+    const LightTree& tree = source_.vpls_of(slot);
     const std::uint64_t seed = derive_seed(settings_.seed, SeedPurpose::tiles, slot.half);
     const auto tile_stream = [&](std::uint64_t tile) {
       return SampleStream(settings_.sampler, seed, tile, slot.sample);
@@ -107,20 +141,24 @@ class StochasticLightcuts final : public Integrator {
         pixels.clear(), receivers.clear();
         for (std::size_t i = 0; i < size.pixels(); ++i) {
           const std::size_t index = film.resolution().index(first + size.pixel(i));
-          auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+          auto [context, position] =
+              make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index, camera);
           const auto& prefix = pixels.emplace_back(context, trace_camera_prefix(context, position)).prefix;
           if (prefix.gather) receivers.push_back(make_receiver({*prefix.gather, context.lobes}));
         }
         gatherer.begin_tile(receivers, tile_stream(tile).get1_double(Use::tile_comb));
         for (std::size_t i = 0; i < size.pixels(); ++i) {
           auto& [context, prefix] = pixels[i];
+          const Pixel pixel = first + size.pixel(i);
           PartValues radiance = prefix.radiance;
+          float brought = 0;
           if (prefix.gather) {
-            gather_without_vpls(context, prefix, gather_, radiance);
+            brought = gather_without_vpls(context, prefix, gather_, radiance, mean_rays(pixel));
             const double u = context.random.get1_double(Use::candidate_choice);
             radiance[Part::vpl] += prefix.throughput * gatherer.gather(context, *prefix.gather, u);
           }
-          record(half, first + size.pixel(i), radiance);
+          record(half, pixel, radiance);
+          note(pixel, luminance(radiance.total()), brought);
           rays += context.rays;
         }
       }
@@ -137,6 +175,8 @@ class StochasticLightcuts final : public Integrator {
   Gather gather_kind_ = Gather::descent;
   int cut_size_ = 10;
   TileParameters tile_;
+  RayAllocationParameters ray_parameters_;
+  std::optional<RayAllocation> allocation_;
   VplSource source_{VplSource::Structure::tree};
   const Scene* scene_ = nullptr;
   RenderSettings settings_;

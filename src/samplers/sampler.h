@@ -31,6 +31,7 @@ enum class Use : std::uint16_t {
   group_offset,        ///< offset of the blocks or tiles of a pass
   tile_comb,           ///< place of the comb that draws a tile's candidates
   candidate_choice,    ///< place of the comb that draws among them for a pixel
+  ray_count,           ///< rounding of the number of rays of a gather
   crossing,            ///< whether a path passes straight through a surface or is scattered
 };
 
@@ -52,6 +53,13 @@ class SampleStream {
  public:
   SampleStream(SamplerKind kind, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
       : key_(hash_combine(seed, stream)), sample_(sample), kind_(kind) {}
+
+  /// A stream of the same sample whose numbers are independent of this one's and of other branches'.
+  SampleStream branch(std::uint32_t index) const {
+    SampleStream stream = *this;
+    stream.key_ = hash_combine(key_, std::uint64_t{index} + 1);
+    return stream;
+  }
 
   /// In [0,1), a multiple of 2^-24.
   float get1(Use use, std::uint32_t index = 0) const { return to_unit_float(bits1(use, index)); }
