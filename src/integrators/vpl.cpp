@@ -1,3 +1,5 @@
+#include <span>
+
 #include "core/distribution.h"
 #include "core/parallel.h"
 #include "integrators/gathering.h"
@@ -69,7 +71,7 @@ class VplSampler final : public Integrator {
 
   Rgb gather_vpls(PathContext& context, const PathVertex& x, const VplSet& set) const {
     Rgb sum;
-    const std::vector<Vpl>& vpls = set.vpls;
+    const std::span<const Vpl> vpls = set.vpls;
     if (vpls.empty()) return sum;
     if (selection_ == Selection::all) {
       for (const Vpl& vpl : vpls) sum += connect(context, x, set, vpl);

@@ -7,47 +7,12 @@
 namespace gradslc {
 namespace {
 
-constexpr float k_rounding = 4e-7f;  // a few ulp of 1: cones must still hold their directions after rounding
-
-/// The mean axis, opened to the widest of the cones. Half angles add by cosines and sines; what exceeds pi is the whole
-/// sphere.
-class ConeUnion {
- public:
-  void add_axis(const Cone& cone) {
-    sum_ = sum_ + cone.axis;
-    whole_ |= cone.cosine <= -1;
-  }
-  void close_axes() {
-    const float squared = length_squared(sum_);
-    whole_ |= !(squared > 1e-8f);
-    if (!whole_) result_.axis = sum_ / std::sqrt(squared);
-  }
-  void open_to(const Cone& cone) {
-    if (whole_) return;
-    const float cos_offset = std::min(dot(result_.axis, cone.axis), 1.0f);
-    if (cos_offset + cone.cosine <= 0) {  // the two angles together reach pi
-      whole_ = true;
-      return;
-    }
-    const float sin_offset = std::sqrt(std::max(0.0f, 1 - cos_offset * cos_offset));
-    result_.cosine = std::min(result_.cosine, cos_offset * cone.cosine - sin_offset * cone.sine());
-  }
-  Cone result() const {
-    if (whole_) return {{0, 0, 1}, -1};
-    return {result_.axis, std::max(-1.0f, result_.cosine - k_rounding)};
-  }
-
- private:
-  Vec3 sum_{0, 0, 0};
-  Cone result_;
-  bool whole_ = false;
-};
-
 /// Light leaves a VPL on the side of its shading normal with the geometric normal's |cos|. Where the two normals are at
 /// an angle d, the geometric cosine is negative over the last d before the shading horizon, of size sin(d) at most: a
 /// cone of half angle 2 d around the geometric normal bounds it there.
 float leaf_cone_cosine(float cos_normals) {
-  return cos_normals > 0 ? std::max(-1.0f, 2 * cos_normals * cos_normals - 1 - k_rounding) : -1;
+  const float facing = std::max(cos_normals, 0.0f);
+  return std::max(-1.0f, 2 * facing * facing - 1 - k_cone_rounding);
 }
 
 }  // namespace
@@ -69,30 +34,8 @@ LightCluster make_cluster(const VplSet& set, const Vpl& vpl) {
   cluster.capped_flux = flux;
   if (surface.transmits) cluster.normals.cosine = -1;
   cluster.gloss = surface.bound.gloss.scaled(flux);
-  cluster.mirrored = {mirrored(vpl.incoming.decode(), vpl.shading_normal.decode()), 1 - k_rounding};
+  cluster.mirrored = {mirrored(vpl.incoming.decode(), vpl.shading_normal.decode()), 1 - k_cone_rounding};
   return cluster;
-}
-
-LightCluster merge_clusters(std::span<const LightCluster> clusters) {
-  LightCluster merged;
-  ConeUnion normals, images;
-  for (const LightCluster& cluster : clusters) {
-    merged.box.extend(cluster.box);
-    merged.flux += cluster.flux;
-    merged.capped_flux += cluster.capped_flux;
-    normals.add_axis(cluster.normals);
-    if (cluster.gloss.peak == 0) continue;
-    merged.gloss += cluster.gloss;
-    images.add_axis(cluster.mirrored);
-  }
-  normals.close_axes(), images.close_axes();
-  for (const LightCluster& cluster : clusters) {
-    normals.open_to(cluster.normals);
-    if (cluster.gloss.peak > 0) images.open_to(cluster.mirrored);
-  }
-  merged.normals = normals.result();
-  merged.mirrored = images.result();
-  return merged;
 }
 
 }  // namespace gradslc

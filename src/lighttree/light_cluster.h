@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/bounds.h"
 #include "vpl/vpl.h"
@@ -29,7 +28,8 @@ struct LightCluster {
 };
 
 LightCluster make_cluster(const VplSet& set, const Vpl& vpl);
-/// At least one.
-LightCluster merge_clusters(std::span<const LightCluster> clusters);
+
+/// A few ulp of 1: cones must still hold their directions after rounding.
+constexpr float k_cone_rounding = 4e-7f;
 
 }  // namespace gradslc

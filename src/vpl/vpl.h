@@ -3,8 +3,8 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
+#include "core/bulk_vector.h"
 #include "core/octahedral.h"
 #include "core/rgb.h"
 #include "core/vec.h"
@@ -51,8 +51,8 @@ struct VplSurface {
 
 /// All VPLs of one set of light paths, in the order of their paths.
 struct VplSet {
-  std::vector<Vpl> vpls;
-  std::vector<VplSurface> surfaces;
+  BulkVector<Vpl> vpls;
+  BulkVector<VplSurface> surfaces;
   std::uint64_t rays = 0;  ///< traced to make it
 
   bool transmits(const Vpl& vpl) const { return !vpl.is_lambert() && surfaces[vpl.surface].transmits; }
