@@ -85,8 +85,7 @@ Cone merge_cones(const Lanes (&axis)[3], const Lanes& cosine, const Lanes& sine,
   const Float8 own_cosine = load_aligned(cosine), own_sine = load_aligned(sine);
   if (stdx::any_of(selected && own_cosine <= -1) || !(squared > 1e-8f)) return whole;
   const Vec3 mean = total / std::sqrt(squared);
-  const Float8 cos_offset =
-      stdx::min(direction[0] * mean.x + direction[1] * mean.y + direction[2] * mean.z, Float8(1));
+  const Float8 cos_offset = stdx::min(direction[0] * mean.x + direction[1] * mean.y + direction[2] * mean.z, Float8(1));
   if (stdx::any_of(selected && cos_offset + own_cosine <= 0)) return whole;  // the two angles together reach pi
   const Float8 sin_offset = stdx::sqrt(stdx::max(1 - cos_offset * cos_offset, Float8(0)));
   Float8 opened = cos_offset * own_cosine - sin_offset * own_sine;
@@ -124,15 +123,13 @@ void fill_leaf_node(LightTree& tree, NodeIndex index, std::uint32_t first, int c
   clear_lanes(node, gloss, count);
 }
 
-void fill_inner_node(LightTree& tree, NodeIndex index, NodeIndex first, int count) {
-  assert(count >= 1 && count <= LightNode::k_width);
+void fill_inner_node(LightTree& tree, NodeIndex index, std::span<const NodeIndex> children) {
+  assert(!children.empty() && children.size() <= LightNode::k_width);
   LightNode& node = tree.nodes[index];
   GlossyLanes* gloss = tree.gloss.empty() ? nullptr : &tree.gloss[index];
-  for (int lane = 0; lane < count; ++lane) {
-    const NodeIndex child = first + static_cast<NodeIndex>(lane);
-    set_lane(node, gloss, lane, merge_lanes(tree, child), child);
-  }
-  clear_lanes(node, gloss, count);
+  int lane = 0;
+  for (const NodeIndex child : children) set_lane(node, gloss, lane++, merge_lanes(tree, child), child);
+  clear_lanes(node, gloss, lane);
 }
 
 LightCluster merge_lanes(const LightTree& tree, NodeIndex index) {

@@ -19,7 +19,7 @@ struct alignas(64) LightNode {
   alignas(32) Lanes lower[3] = {}, upper[3] = {};          ///< boxes
   alignas(32) Lanes flux = {}, capped_flux = {};           ///< as in LightCluster; 0 in lanes without a child
   alignas(32) Lanes axis[3] = {}, cosine = {}, sine = {};  ///< cones of normals
-  std::uint32_t child[k_width] = {};                       ///< k_leaf | index of a VPL, or a node; k_none: no child in this lane
+  std::uint32_t child[k_width] = {};  ///< k_leaf | index of a VPL, or a node; k_none: no child in this lane
 
   static constexpr std::uint32_t k_leaf = 0x80000000u, k_none = 0xffffffffu;
   bool has_child(int lane) const { return child[lane] != k_none; }
@@ -41,10 +41,9 @@ static_assert(sizeof(GlossyLanes) == 256);
 /// A tree of clusters over a set of VPLs, eight children a node. Node 0 is the root; every node has a child, and every
 /// VPL is one leaf.
 struct LightTree {
-  static constexpr std::size_t k_most_vpls = 0x7fffffff;
   BulkVector<LightNode> nodes;
   BulkVector<GlossyLanes> gloss;  ///< of each node; empty where no VPL has a microfacet lobe
-  VplSet set;                      ///< in tree order
+  VplSet set;                     ///< in tree order
   bool empty() const { return nodes.empty(); }
 };
 
@@ -59,6 +58,8 @@ struct BuilderEntry {
   const char* name;
   const char* meaning;
   LightTree (*build)(VplSet set);
+  double (*resident_bytes)(const VplCounts&);  ///< expected, of the tree with its set
+  double (*peak_bytes)(const VplCounts&);      ///< expected, while it is built
 };
 /// The only list of builders.
 std::span<const BuilderEntry> builder_registry();

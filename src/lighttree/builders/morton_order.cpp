@@ -23,29 +23,6 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249;
 }
 
-/// Maps points of a box to codes: the axes' bits interleaved. Axes without extent give 0.
-class MortonCode {
- public:
-  explicit MortonCode(const Bounds3& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      lower_[axis] = static_cast<double>(box.lower[axis]);
-      const double extent = static_cast<double>(box.upper[axis]) - lower_[axis];
-      if (extent > 0) cells_per_length_[axis] = 0x1p21 / extent;
-    }
-  }
-  std::uint64_t operator()(Point3 p) const {
-    std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double cell = (static_cast<double>(p[axis]) - lower_[axis]) * cells_per_length_[axis];
-      code |= spread_bits(static_cast<std::uint64_t>(std::clamp(cell, 0.0, 0x1p21 - 1))) << axis;
-    }
-    return code;
-  }
-
- private:
-  double lower_[3], cells_per_length_[3] = {0, 0, 0};
-};
-
 /// A sum of boxes is the box that holds them.
 struct BoxSum {
   Bounds3 box;
@@ -54,6 +31,25 @@ struct BoxSum {
     return *this;
   }
 };
+
+}  // namespace
+
+MortonCode::MortonCode(const Bounds3& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lower_[axis] = static_cast<double>(box.lower[axis]);
+    const double extent = static_cast<double>(box.upper[axis]) - lower_[axis];
+    if (extent > 0) cells_per_length_[axis] = 0x1p21 / extent;
+  }
+}
+
+std::uint64_t MortonCode::operator()(Point3 p) const {
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = (static_cast<double>(p[axis]) - lower_[axis]) * cells_per_length_[axis];
+    code |= spread_bits(static_cast<std::uint64_t>(std::clamp(cell, 0.0, 0x1p21 - 1))) << axis;
+  }
+  return code;
+}
 
 Bounds3 box_of(std::span<const Vpl> vpls) {
   return parallel_sum<BoxSum>(vpls.size(), k_grain,
@@ -65,9 +61,7 @@ Bounds3 box_of(std::span<const Vpl> vpls) {
       .box;
 }
 
-}  // namespace
-
-void sort_in_morton_order(BulkVector<Vpl>& vpls) {
+std::span<Vpl> sort_in_morton_order(BulkVector<Vpl>& vpls) {
   const MortonCode code(box_of(vpls));
   BulkVector<SortRecord> records(vpls.size());
   parallel_for(vpls.size(), k_grain, [&](std::size_t begin, std::size_t end) {
@@ -83,6 +77,7 @@ void sort_in_morton_order(BulkVector<Vpl>& vpls) {
     }
   });
   vpls.swap(sorted);
+  return vpls;
 }
 
 }  // namespace gradslc

@@ -23,6 +23,14 @@ std::vector<std::size_t> level_sizes(std::size_t vpls) {
 
 }  // namespace
 
+double pairs_bytes(const VplCounts& counts) {
+  return counts.bytes() + counts.vpls / (k_width - 1) * node_bytes(counts);  // n/8 + n/64 + ... = n/7 nodes
+}
+
+double pairs_peak_bytes(const VplCounts& counts) {
+  return std::max(pairs_bytes(counts), counts.bytes() + counts.vpls * k_morton_bytes);
+}
+
 LightTree build_pairs(VplSet set) {
   LightTree tree;
   tree.set = std::move(set);
@@ -45,9 +53,12 @@ LightTree build_pairs(VplSet set) {
     const std::size_t below = first;
     first -= sizes[level];
     parallel_for(sizes[level], k_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        fill_inner_node(tree, static_cast<NodeIndex>(first + i), static_cast<NodeIndex>(below + i * k_width),
-                        static_cast<int>(std::min(k_width, sizes[level - 1] - i * k_width)));
+      for (std::size_t i = begin; i < end; ++i) {
+        NodeIndex children[k_width];
+        std::iota(std::begin(children), std::end(children), static_cast<NodeIndex>(below + i * k_width));
+        fill_inner_node(tree, static_cast<NodeIndex>(first + i),
+                        std::span(children).first(std::min(k_width, sizes[level - 1] - i * k_width)));
+      }
     });
   }
   return tree;
