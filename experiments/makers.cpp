@@ -12,7 +12,12 @@ Makers real_makers() {
     options.height = plan.height;
     return Scene(load_scene(plan.file.string(), options));
   };
-  return {make_integrator, make_reconstruction, load, system_time};
+  Makers makers;
+  makers.integrator = [](const MethodPlan& method) { return make_integrator(method); };
+  makers.reconstruction = [](const MethodPlan& method) { return make_reconstruction(method); };
+  makers.scene = load;
+  makers.clock = system_time;
+  return makers;
 }
 
 }  // namespace gradslc

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/memory.h"
 #include "experiments/clock.h"
 #include "experiments/experiment.h"
 
@@ -17,6 +18,7 @@ struct Makers {
   std::function<std::unique_ptr<Reconstruction>(const MethodPlan&)> reconstruction;  ///< may give null: none
   std::function<Scene(const ScenePlan&)> scene;
   Clock clock;
+  std::function<double()> available_memory = gradslc::available_memory;  ///< bytes
 };
 
 /// The registries' integrators and reconstructions, scenes from their files, the system's time.

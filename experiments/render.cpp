@@ -7,6 +7,7 @@
 
 #include "core/file.h"
 #include "experiments/build_info.h"
+#include "experiments/memory_check.h"
 #include "experiments/sha256.h"
 #include "experiments/turns.h"
 #include "film/film_io.h"
@@ -49,6 +50,7 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
 
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
                            const Budget& budget, bool parts, const Makers& makers, const Progress& progress) {
+  require_memory(plan_memory({method}, "memory", scene, settings, makers), makers.available_memory());
   nlohmann::json machine = machine_info();
   std::unique_ptr<Reconstruction> reconstruction = makers.reconstruction(method);
   MethodRun::Plan plan{method.name, settings, budget, parts, render_targets(budget, reconstruction != nullptr)};

@@ -43,6 +43,12 @@ class ProgressMeter {
   std::string what_;
 };
 
+RenderSettings settings_of(const Experiment& experiment, const ScenePlan& plan) {
+  RenderSettings settings = experiment.settings;
+  if (plan.max_depth) settings.max_depth = *plan.max_depth;
+  return settings;
+}
+
 /// Makes everything once that the experiment needs, so that bad input is found before anything is written or waited
 /// for.
 void check_inputs(const Experiment& experiment, const Makers& makers) {
@@ -52,6 +58,8 @@ void check_inputs(const Experiment& experiment, const Makers& makers) {
   }
   for (const ScenePlan& plan : experiment.scenes) {
     const Scene scene = makers.scene(plan);
+    require_memory(plan_memory(experiment.methods, plan.name, scene, settings_of(experiment, plan), makers),
+                   makers.available_memory());
     if (experiment.reference.kind == ReferencePlan::Kind::file) {
       imported_reference(experiment.reference.file, scene.camera().resolution());
     }
@@ -87,8 +95,7 @@ class Run {
   void run_scene(const ScenePlan& plan) {
     const Scene scene = makers_.scene(plan);
     const std::string hash = scene_hash(scene);
-    RenderSettings settings = experiment_.settings;
-    if (plan.max_depth) settings.max_depth = *plan.max_depth;
+    const RenderSettings settings = settings_of(experiment_, plan);
     log(fmt::format("{}: {}x{}, {} triangles", plan.name, scene.camera().resolution().width,
                     scene.camera().resolution().height, scene.triangle_count()));
 
@@ -196,6 +203,16 @@ class Run {
 
 std::uint64_t repeat_seed(std::uint64_t experiment_seed, int repeat) {
   return hash_combine(experiment_seed, static_cast<std::uint64_t>(repeat));
+}
+
+std::vector<PlannedRun> plan_experiment(const Experiment& experiment, const Makers& makers) {
+  std::vector<PlannedRun> runs;
+  for (const ScenePlan& plan : experiment.scenes) {
+    const std::vector<PlannedRun> of_scene =
+        plan_memory(experiment.methods, plan.name, makers.scene(plan), settings_of(experiment, plan), makers);
+    runs.insert(runs.end(), of_scene.begin(), of_scene.end());
+  }
+  return runs;
 }
 
 void run_experiment(const Experiment& experiment, const RunOptions& options) {

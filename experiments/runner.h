@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "experiments/experiment.h"
 #include "experiments/makers.h"
+#include "experiments/memory_check.h"
 
 namespace gradslc {
 
@@ -20,6 +22,9 @@ struct RunOptions {
 /// the folder, a scene or a method is no good; what was complete stays.
 void run_experiment(const Experiment& experiment, const RunOptions& options);
 void run_experiment(const Experiment& experiment, const RunOptions& options, const Makers& makers);
+
+/// What every method is expected to need on every scene. Loads the scenes and traces pilot light paths.
+std::vector<PlannedRun> plan_experiment(const Experiment& experiment, const Makers& makers);
 
 /// Seed of a repeat, the same for all methods: repeats and experiments' seeds are hashed, not added.
 std::uint64_t repeat_seed(std::uint64_t experiment_seed, int repeat);

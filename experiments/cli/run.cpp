@@ -23,7 +23,7 @@ struct RunArguments {
   std::optional<int> spp;
   std::optional<double> seconds;
   int threads = 0;
-  bool print_json = false, quiet = false;
+  bool dry_run = false, print_json = false, quiet = false;
 };
 
 int run(const RunArguments& arguments) {
@@ -37,10 +37,14 @@ int run(const RunArguments& arguments) {
   if (!experiment) return report_problems(problems);
   const std::filesystem::path out =
       arguments.out.empty() ? std::filesystem::path("results") / file_name_for(experiment->name) : arguments.out;
-  require_writable_folder(out);
+  if (!arguments.dry_run) require_writable_folder(out);
   set_thread_count(arguments.threads);
   check_scenes(*experiment, problems);
   if (!problems.empty()) return report_problems(problems);
+  if (arguments.dry_run) {
+    for (const PlannedRun& planned : plan_experiment(*experiment, real_makers())) fmt::print("{}\n", describe(planned));
+    return k_done;
+  }
   Console console(arguments.quiet);
   run_experiment(*experiment, {out, [&](const std::string& line) { console.log(line); },
                                [&](double fraction, double eta, const std::string& what) {
@@ -72,6 +76,9 @@ Command run_command(CLI::App& parent) {
   app.add_option("--threads", arguments->threads, "Threads; 0: one per core")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
+  app.add_flag(
+      "--dry-run", arguments->dry_run,
+      "Print what each method would take on each scene, and render nothing: light paths, VPLs expected, memory");
   app.add_flag("--json", arguments->print_json, "Print where the results lie as JSON to stdout");
   app.add_flag("--quiet", arguments->quiet, "Print errors only");
   app.footer(

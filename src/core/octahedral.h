@@ -28,6 +28,8 @@ class OctahedralNormal {
     x -= std::copysign(fold, x), y -= std::copysign(fold, y);
     return normalize(Vec3{x, y, z});
   }
+  /// As stored: coordinate 0 or 1 of the map, times 32767.
+  std::int16_t stored(int axis) const { return axis == 0 ? x_ : y_; }
   bool operator==(const OctahedralNormal&) const = default;
 
  private:

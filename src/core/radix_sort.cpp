@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/parallel.h"
 
@@ -28,11 +29,11 @@ bool scan(std::vector<Histogram>& histograms, std::size_t count) {
 
 }  // namespace
 
-void radix_sort(std::vector<SortRecord>& records) {
+void radix_sort(BulkVector<SortRecord>& records) {
   constexpr std::size_t k_grain = std::size_t{1} << 16;
   const std::size_t count = records.size();
   if (count < 2) return;
-  std::vector<SortRecord> other(count);
+  BulkVector<SortRecord> other(count);
   std::vector<Histogram> histograms((count + k_grain - 1) / k_grain);
   for (unsigned shift = 0; shift < 64; shift += 8) {
     parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {

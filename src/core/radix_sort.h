@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "core/bulk_vector.h"
 
 namespace gradslc {
 
@@ -12,6 +13,6 @@ struct SortRecord {
 
 /// Sorts by key, stable: least significant digit first, eight passes of eight bits, chunks of fixed size in parallel.
 /// Passes whose digit is the same everywhere are skipped.
-void radix_sort(std::vector<SortRecord>& records);
+void radix_sort(BulkVector<SortRecord>& records);
 
 }  // namespace gradslc

@@ -61,6 +61,9 @@ class GradientStochasticLightcuts final : public Integrator {
     if (slot.closes_set) film.close_set(slot.half);
   }
 
+  MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings) const override {
+    return source_.plan_memory(scene, settings);
+  }
   IntegratorTraits traits() const override {
     IntegratorTraits traits = source_.traits();
     traits.gradients = true;

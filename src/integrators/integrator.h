@@ -8,6 +8,7 @@
 
 #include "core/parameters.h"
 #include "film/film.h"
+#include "integrators/memory_plan.h"
 #include "samplers/sampler.h"
 
 namespace gradslc {
@@ -58,6 +59,8 @@ class Integrator {
   /// Adds one sample per pixel to `film`, to the half that the pass belongs to, and closes the set where it ends.
   /// Passes may be rendered in any order of sets; the same pass adds the same bits for any number of threads.
   virtual void render_pass(std::uint32_t pass, Film& film) = 0;
+  /// What prepare() and render_pass() would take with these settings; renders nothing. Only after describe().
+  virtual MemoryPlan plan_memory(const Scene&, const RenderSettings&) const { return {}; }
   virtual IntegratorTraits traits() const = 0;  ///< valid after prepare()
   virtual IntegratorStatistics statistics() const = 0;
 };

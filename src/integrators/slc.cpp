@@ -45,6 +45,9 @@ class StochasticLightcuts final : public Integrator {
     if (slot.closes_set) film.close_set(slot.half);
   }
 
+  MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings) const override {
+    return source_.plan_memory(scene, settings);
+  }
   IntegratorTraits traits() const override { return source_.traits(); }
   IntegratorStatistics statistics() const override {
     IntegratorStatistics statistics{.rays = rays_ + source_.rays(), .counters = {}};

@@ -1,3 +1,5 @@
+#include <span>
+
 #include "core/distribution.h"
 #include "core/parallel.h"
 #include "integrators/gathering.h"
@@ -47,6 +49,9 @@ class VplSampler final : public Integrator {
     if (slot.closes_set) film.close_set(slot.half);
   }
 
+  MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings) const override {
+    return source_.plan_memory(scene, settings);
+  }
   IntegratorTraits traits() const override { return source_.traits(); }
   IntegratorStatistics statistics() const override {
     IntegratorStatistics statistics{.rays = rays_ + source_.rays(), .counters = {}};
@@ -69,7 +74,7 @@ class VplSampler final : public Integrator {
 
   Rgb gather_vpls(PathContext& context, const PathVertex& x, const VplSet& set) const {
     Rgb sum;
-    const std::vector<Vpl>& vpls = set.vpls;
+    const std::span<const Vpl> vpls = set.vpls;
     if (vpls.empty()) return sum;
     if (selection_ == Selection::all) {
       for (const Vpl& vpl : vpls) sum += connect(context, x, set, vpl);

@@ -5,6 +5,7 @@
 #include "integrators/integrator.h"
 #include "integrators/pass_schedule.h"
 #include "lighttree/light_tree.h"
+#include "vpl/light_tracing.h"
 #include "vpl/vpl_parameters.h"
 
 namespace gradslc {
@@ -18,6 +19,8 @@ class VplSource {
   void describe(ParameterVisitor& visitor);
   /// Measures the bound b from a pilot set of its own seed, so that it does not come from a set that it weights.
   void prepare(const Scene& scene, const RenderSettings& settings);
+  /// From the number of VPLs that a pilot set's paths leave.
+  MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings) const;
   /// VPLs of the pass's set; nodes only with Structure::tree.
   const LightTree& vpls_of(const PassSlot& slot);
 
@@ -28,7 +31,9 @@ class VplSource {
   void append_counters(std::vector<IntegratorStatistics::Counter>& counters) const;
 
  private:
-  VplSet trace(std::int64_t light_paths, SeedPurpose purpose, int half, std::uint32_t set);
+  LightTracingSettings tracing_settings(const RenderSettings& settings, SeedPurpose purpose, int half,
+                                        std::uint32_t set) const;
+  VplSet trace(SeedPurpose purpose, int half, std::uint32_t set);
 
   Structure structure_;
   VplParameters parameters_;

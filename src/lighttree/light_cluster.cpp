@@ -7,13 +7,12 @@
 namespace gradslc {
 namespace {
 
-constexpr float k_rounding = Cone::k_rounding;
-
 /// Light leaves a VPL on the side of its shading normal with the geometric normal's |cos|. Where the two normals are at
 /// an angle d, the geometric cosine is negative over the last d before the shading horizon, of size sin(d) at most: a
 /// cone of half angle 2 d around the geometric normal bounds it there.
 float leaf_cone_cosine(float cos_normals) {
-  return cos_normals > 0 ? std::max(-1.0f, 2 * cos_normals * cos_normals - 1 - k_rounding) : -1;
+  const float facing = std::max(cos_normals, 0.0f);
+  return std::max(-1.0f, 2 * facing * facing - 1 - k_cone_rounding);
 }
 
 }  // namespace
@@ -42,7 +41,7 @@ void ConeUnion::open_to(const Cone& cone) {
 
 Cone ConeUnion::result() const {
   if (whole_) return {{0, 0, 1}, -1};
-  return {result_.axis, std::max(-1.0f, result_.cosine - k_rounding)};
+  return {result_.axis, std::max(-1.0f, result_.cosine - k_cone_rounding)};
 }
 
 LightCluster make_cluster(const VplSet& set, const Vpl& vpl) {
@@ -62,30 +61,8 @@ LightCluster make_cluster(const VplSet& set, const Vpl& vpl) {
   cluster.capped_flux = flux;
   if (surface.transmits) cluster.normals.cosine = -1;
   cluster.gloss = surface.bound.gloss.scaled(flux);
-  cluster.mirrored = {mirrored(vpl.incoming.decode(), vpl.shading_normal.decode()), 1 - k_rounding};
+  cluster.mirrored = {mirrored(vpl.incoming.decode(), vpl.shading_normal.decode()), 1 - k_cone_rounding};
   return cluster;
-}
-
-LightCluster merge_clusters(std::span<const LightCluster> clusters) {
-  LightCluster merged;
-  ConeUnion normals, images;
-  for (const LightCluster& cluster : clusters) {
-    merged.box.extend(cluster.box);
-    merged.flux += cluster.flux;
-    merged.capped_flux += cluster.capped_flux;
-    normals.add_axis(cluster.normals);
-    if (cluster.gloss.peak == 0) continue;
-    merged.gloss += cluster.gloss;
-    images.add_axis(cluster.mirrored);
-  }
-  normals.close_axes(), images.close_axes();
-  for (const LightCluster& cluster : clusters) {
-    normals.open_to(cluster.normals);
-    if (cluster.gloss.peak > 0) images.open_to(cluster.mirrored);
-  }
-  merged.normals = normals.result();
-  merged.mirrored = images.result();
-  return merged;
 }
 
 }  // namespace gradslc

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/bounds.h"
 #include "vpl/vpl.h"
@@ -13,7 +12,6 @@ struct Cone {
   Vec3 axis{0, 0, 1};  ///< unit
   float cosine = 1;    ///< of the half angle, in [-1, 1]; -1: all directions
 
-  static constexpr float k_rounding = 4e-7f;  ///< a few ulp of 1: cones hold their directions after rounding
   float sine() const { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
 };
 
@@ -45,7 +43,8 @@ struct LightCluster {
 };
 
 LightCluster make_cluster(const VplSet& set, const Vpl& vpl);
-/// At least one.
-LightCluster merge_clusters(std::span<const LightCluster> clusters);
+
+/// A few ulp of 1: cones must still hold their directions after rounding.
+constexpr float k_cone_rounding = 4e-7f;
 
 }  // namespace gradslc

@@ -18,8 +18,10 @@ void set_lane(LightNode& node, GlossyLanes* gloss, int lane, const LightCluster&
   gloss->cosine[lane] = cluster.mirrored.cosine, gloss->sine[lane] = cluster.mirrored.sine();
 }
 
-void clear_lanes(LightNode& node, int lane) {
-  for (; lane < LightNode::k_width; ++lane) node.child[lane] = LightNode::k_none;
+void clear_lanes(LightNode& node, GlossyLanes* gloss, int lane) {
+  LightCluster nothing;
+  nothing.box = {Point3(), Point3()};
+  for (; lane < LightNode::k_width; ++lane) set_lane(node, gloss, lane, nothing, LightNode::k_none);
 }
 
 LightCluster cluster_of_lane(const LightTree& tree, NodeIndex index, int lane) {

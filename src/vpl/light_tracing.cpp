@@ -1,8 +1,11 @@
 #include "vpl/light_tracing.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace gradslc {
@@ -108,23 +111,34 @@ std::uint64_t trace_light_path(const Scene& scene, const LightTracingSettings& s
   return rays;
 }
 
-/// Puts the parts one after another.
-void join(std::vector<VplSet>& parts, VplSet& set) {
-  std::vector<std::size_t> first_vpl(parts.size() + 1, 0), first_surface(parts.size() + 1, 0);
-  for (std::size_t c = 0; c < parts.size(); ++c) {
-    first_vpl[c + 1] = first_vpl[c] + parts[c].vpls.size();
-    first_surface[c + 1] = first_surface[c] + parts[c].surfaces.size();
+/// What the chunks of a round have left, appended in the chunks' order. Fresh surfaces are numbered within a part.
+void append(std::vector<VplSet>& parts, VplSet& set) {
+  std::vector<std::size_t> first_vpl{set.vpls.size()}, first_surface{set.surfaces.size()};
+  for (const VplSet& part : parts) {
+    first_vpl.push_back(first_vpl.back() + part.vpls.size());
+    first_surface.push_back(first_surface.back() + part.surfaces.size());
   }
+  if (first_vpl.back() > VplSet::k_most)
+    throw_failure("light tracing", "more than 2^31 VPLs in one set; fewer light_paths would fit");
   set.vpls.resize(first_vpl.back());
   set.surfaces.resize(first_surface.back());
   parallel_for(parts.size(), 1, [&](std::size_t c, std::size_t) {
-    for (Vpl& vpl : parts[c].vpls)
+    VplSet& part = parts[c];
+    for (Vpl& vpl : part.vpls)
       if (!vpl.is_lambert()) vpl.surface += static_cast<std::uint32_t>(first_surface[c]);
-    std::copy(parts[c].vpls.begin(), parts[c].vpls.end(), set.vpls.begin() + static_cast<std::ptrdiff_t>(first_vpl[c]));
-    std::copy(parts[c].surfaces.begin(), parts[c].surfaces.end(),
+    std::copy(part.vpls.begin(), part.vpls.end(), set.vpls.begin() + static_cast<std::ptrdiff_t>(first_vpl[c]));
+    std::copy(part.surfaces.begin(), part.surfaces.end(),
               set.surfaces.begin() + static_cast<std::ptrdiff_t>(first_surface[c]));
-    parts[c] = VplSet();
+    part.vpls.clear(), part.surfaces.clear();
   });
+}
+
+/// Makes room for what all paths are going to leave when `done` of them have left the set, so that it need not move
+/// while it grows. Room that is not used costs no memory.
+void reserve_for_all(VplSet& set, std::size_t done, std::size_t paths) {
+  const double scale = 1.05 * static_cast<double>(paths) / static_cast<double>(done);
+  set.vpls.reserve(static_cast<std::size_t>(scale * static_cast<double>(set.vpls.size())));
+  set.surfaces.reserve(static_cast<std::size_t>(scale * static_cast<double>(set.surfaces.size())));
 }
 
 }  // namespace
@@ -132,17 +146,22 @@ void join(std::vector<VplSet>& parts, VplSet& set) {
 VplSet trace_vpls(const Scene& scene, const LightTracingSettings& settings) {
   VplSet set;
   if (scene.emitters().empty()) return set;
-  constexpr std::size_t k_paths_per_chunk = 256;
+  // In rounds, so that what waits to be appended is bounded.
+  constexpr std::size_t k_paths_per_chunk = 256, k_chunks_per_round = 1024;
+  constexpr std::size_t k_paths_per_round = k_paths_per_chunk * k_chunks_per_round;
   const auto paths = static_cast<std::size_t>(settings.light_paths);
-  const std::size_t chunks = (paths + k_paths_per_chunk - 1) / k_paths_per_chunk;
-  std::vector<VplSet> parts(chunks);
-  set.rays = parallel_sum<std::uint64_t>(paths, k_paths_per_chunk, [&](std::size_t begin, std::size_t end) {
-    std::uint64_t rays = 0;
-    for (std::size_t path = begin; path < end; ++path)
-      rays += trace_light_path(scene, settings, path, parts[begin / k_paths_per_chunk]);
-    return rays;
-  });
-  join(parts, set);
+  std::vector<VplSet> parts(std::min(k_chunks_per_round, (paths + k_paths_per_chunk - 1) / k_paths_per_chunk));
+  for (std::size_t first = 0; first < paths; first += k_paths_per_round) {
+    const std::size_t count = std::min(k_paths_per_round, paths - first);
+    set.rays += parallel_sum<std::uint64_t>(count, k_paths_per_chunk, [&](std::size_t begin, std::size_t end) {
+      std::uint64_t rays = 0;
+      for (std::size_t path = begin; path < end; ++path)
+        rays += trace_light_path(scene, settings, first + path, parts[begin / k_paths_per_chunk]);
+      return rays;
+    });
+    append(parts, set);
+    if (first == 0 && count < paths) reserve_for_all(set, count, paths);
+  }
   return set;
 }
 

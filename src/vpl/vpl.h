@@ -1,10 +1,11 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
+#include "core/bulk_vector.h"
 #include "core/octahedral.h"
 #include "core/rgb.h"
 #include "core/vec.h"
@@ -51,11 +52,18 @@ struct VplSurface {
 
 /// All VPLs of one set of light paths, in the order of their paths.
 struct VplSet {
-  std::vector<Vpl> vpls;
-  std::vector<VplSurface> surfaces;
+  static constexpr std::size_t k_most = 0x7fffffff;  ///< VPLs: indices have 31 bits
+  BulkVector<Vpl> vpls;
+  BulkVector<VplSurface> surfaces;
   std::uint64_t rays = 0;  ///< traced to make it
 
   bool transmits(const Vpl& vpl) const { return !vpl.is_lambert() && surfaces[vpl.surface].transmits; }
+};
+
+/// How large a set is, or is expected to be.
+struct VplCounts {
+  double vpls = 0, surfaces = 0;
+  double bytes() const { return vpls * sizeof(Vpl) + surfaces * sizeof(VplSurface); }
 };
 
 }  // namespace gradslc

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "core/radix_sort.h"
 #include "lighttree/bounds.h"
 #include "lighttree/cut.h"
 #include "lighttree/descent.h"
@@ -48,18 +47,6 @@ std::vector<std::uint32_t> vpls_below(const LightTree& tree, NodeIndex start, La
 }
 std::vector<std::uint32_t> vpls_below(const LightTree& tree, Child child) {
   return vpls_below(tree, child.node, LaneMask{1} << child.lane);
-}
-
-TEST(RadixSort, EqualsAStableSort) {
-  TestRandom random(1);
-  for (const std::size_t count : {0u, 1u, 2u, 1000u, 200000u}) {
-    std::vector<SortRecord> records(count);
-    for (std::size_t i = 0; i < count; ++i) records[i] = {random.bits() >> (random.below(4) * 16), i};
-    auto expected = records;
-    std::stable_sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-    radix_sort(records);
-    EXPECT_EQ(records, expected) << count;
-  }
 }
 
 class Builders : public testing::TestWithParam<const char*> {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <span>
 
 #include "core/parallel.h"
 #include "support/render/scenes.h"
@@ -16,7 +17,7 @@ LightTracingSettings settings_for(std::int64_t paths, int bounces, std::uint64_t
       .light_paths = paths, .max_bounces = bounces, .lobes = {}, .sampler = SamplerKind::sobol, .seed = seed, .set = 0};
 }
 
-bool same_bits(const std::vector<Vpl>& a, const std::vector<Vpl>& b) {
+bool same_bits(std::span<const Vpl> a, std::span<const Vpl> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vpl)) == 0;
 }
 
