@@ -9,7 +9,8 @@ namespace gradslc {
 std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receivers, const SampleStream& random) {
   chosen_.clear();
   ++cost_.selections;
-  find_cut(tree_, receivers, bound_, cut_size_, cut_);
+  find_cut(tree_, receivers, bound_, limits_, cut_);
+  cost_.cut_nodes += cut_.entries.size();
   cost_.node_evaluations += cut_.evaluated.size() * receivers.size();
 
   // One double with 64 random bits, rotated by the golden ratio from node to node: stratified across the cut, uniform

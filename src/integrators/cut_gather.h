@@ -16,9 +16,9 @@ struct ChosenVpl {
 
 /// What selection has cost.
 struct SelectionCost {
-  std::uint64_t node_evaluations = 0, selections = 0;
+  std::uint64_t node_evaluations = 0, selections = 0, cut_nodes = 0;
   SelectionCost& operator+=(const SelectionCost& o) {
-    node_evaluations += o.node_evaluations, selections += o.selections;
+    node_evaluations += o.node_evaluations, selections += o.selections, cut_nodes += o.cut_nodes;
     return *this;
   }
 };
@@ -28,7 +28,8 @@ struct SelectionCost {
 /// probability 0 (DESIGN 6). Keeps its memory between uses; one per thread.
 class CutSelector {
  public:
-  CutSelector(const LightTree& tree, int cut_size, float bound) : tree_(tree), cut_size_(cut_size), bound_(bound) {}
+  CutSelector(const LightTree& tree, const CutLimits& limits, float bound)
+      : tree_(tree), limits_(limits), bound_(bound) {}
 
   /// The choice depends on `random`'s numbers for Use::descent alone. Valid until the next call.
   std::span<const ChosenVpl> select(std::span<const Receiver> receivers, const SampleStream& random);
@@ -36,7 +37,7 @@ class CutSelector {
 
  private:
   const LightTree& tree_;
-  int cut_size_;
+  CutLimits limits_;
   float bound_;
   LightCut cut_;
   std::vector<ChosenVpl> chosen_;

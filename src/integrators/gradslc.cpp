@@ -216,7 +216,7 @@ class GradientStochasticLightcuts final : public Integrator {
   void run_groups(std::size_t groups, const LightTree& tree, const Body& body) {
     std::mutex cost_mutex;
     parallel_for(groups, 64, [&](std::size_t begin, std::size_t end) {
-      CutSelector selector(tree, cut_size_, gather_.bound);
+      CutSelector selector(tree, {.size = cut_size_}, gather_.bound);
       GradientCost cost;
       for (std::size_t group = begin; group < end; ++group) body(group, selector, cost);
       cost.selection = selector.cost();

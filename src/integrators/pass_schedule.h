@@ -23,7 +23,7 @@ constexpr PassSlot pass_slot(std::uint32_t pass, std::uint32_t passes_per_set) {
 }
 
 /// What a seed is used for: streams of different purposes are independent.
-enum class SeedPurpose : std::uint64_t { camera = 1, light_paths, pilot, tiles, adapted_camera };
+enum class SeedPurpose : std::uint64_t { camera = 1, light_paths, pilot, tiles, adapted_camera, representatives };
 
 constexpr std::uint64_t derive_seed(std::uint64_t seed, SeedPurpose purpose, int half) {
   return hash_combine(seed, static_cast<std::uint64_t>(purpose), static_cast<std::uint64_t>(half));

@@ -22,7 +22,11 @@ class StochasticLightcuts final : public Integrator {
   void describe(ParameterVisitor& v) override {
     v.choice("gather", gather_kind_, {"descent", "tile"},
              "how VPLs are selected: per pixel by descent from a cut (as published), or among a tile's candidates");
-    v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "descent: nodes of the cut, and so shadow rays of a gather");
+    v.integer("cut_size", cut_limits_.size, {1, 100000}, "nodes",
+              "descent: most nodes of the cut, and so shadow rays of a gather");
+    v.real(
+        "cut_error", cut_limits_.error, {0, 1}, "share",
+        "descent: the cut is fine enough once no bound that could be refined is above this share of all; 0: cut_size");
     v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
     v.group("compensation", "tile: the rays that bring what bounding takes",
             [&] { gradslc::describe(v, ray_parameters_); });
@@ -58,6 +62,7 @@ class StochasticLightcuts final : public Integrator {
     count("node_evaluations", cut_cost_.node_evaluations + tile_cost_.nodes);
     if (gather_kind_ == Gather::descent) {
       count("selections", cut_cost_.selections);
+      count("cut_nodes", cut_cost_.cut_nodes);
     } else {
       count("candidates", tile_cost_.candidates);
       count("candidate_evaluations", tile_cost_.evaluations);
@@ -71,7 +76,7 @@ class StochasticLightcuts final : public Integrator {
     FilmHalf& half = film.half(slot.half);
     std::mutex cost_mutex;
     parallel_for(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
-      CutSelector selector(tree, cut_size_, gather_.bound);
+      CutSelector selector(tree, cut_limits_, gather_.bound);
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
@@ -176,7 +181,7 @@ class StochasticLightcuts final : public Integrator {
   };
 
   Gather gather_kind_ = Gather::descent;
-  int cut_size_ = 10;
+  CutLimits cut_limits_{.size = 10};
   TileParameters tile_;
   RayAllocationParameters ray_parameters_;
   std::optional<RayAllocation> allocation_;

@@ -26,6 +26,7 @@ class VplSource {
 
   const VplParameters& parameters() const { return parameters_; }
   float bound() const { return bound_; }
+  std::uint64_t sets() const { return sets_; }  ///< made so far: another number, another set
   IntegratorTraits traits() const;
   std::uint64_t rays() const { return rays_; }
   void append_counters(std::vector<IntegratorStatistics::Counter>& counters) const;

@@ -3,36 +3,39 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 namespace gradslc {
 namespace {
 
-bool is_vpl(const LightTree& tree, const CutEntry& entry) {
-  return std::has_single_bit(entry.lanes) && tree.nodes[entry.node].is_leaf(std::countr_zero(entry.lanes));
+/// The first half of the lanes, the larger one where they are odd.
+LaneMask lower_half(LaneMask lanes) {
+  const int first = std::countr_zero(lanes), count = std::popcount(lanes);
+  const LaneMask half = (LaneMask{1} << (count + 1) / 2) - 1;
+  return half << first;
 }
 
 class Refinement {
  public:
   Refinement(const LightTree& tree, std::span<const Receiver> receivers, float bound, LightCut& cut)
-      : tree_(tree), receivers_(receivers), bound_(bound), cut_(cut) {
-    cut_.entries.clear(), cut_.evaluated.clear();
-    if (!tree_.empty()) push_node(0);
+      : splitter_(tree, receivers, bound, cut.evaluated), entries_(cut.entries) {
+    cut.entries.clear(), cut.evaluated.clear();
+    push(splitter_.root());
   }
 
-  /// False: nothing is left to refine.
-  bool refine_widest() {
-    if (cut_.entries.empty() || is_vpl(tree_, cut_.entries.front())) return false;
-    const CutEntry widest = cut_.entries.front();
-    std::pop_heap(cut_.entries.begin(), cut_.entries.end(), splits_later());
-    cut_.entries.pop_back();
-    if (std::has_single_bit(widest.lanes)) {
-      push_node(tree_.nodes[widest.node].child[std::countr_zero(widest.lanes)]);
-      return true;
-    }
-    const LaneMask lower = lower_half(widest.lanes);
-    push({widest.node, lower, widest.evaluated, 0});
-    push({widest.node, widest.lanes & ~lower, widest.evaluated, 0});
-    return true;
+  /// Whether nothing is left to refine, or no bound of what is left is above `error` of all.
+  bool is_within(float error) const {
+    if (entries_.empty() || is_single_vpl(splitter_.tree(), entries_.front())) return true;
+    const float largest = entries_.front().bound;
+    return std::isfinite(largest) && static_cast<double>(largest) <= static_cast<double>(error) * finite_bounds_;
+  }
+
+  void refine_widest() {
+    const CutEntry widest = entries_.front();
+    std::pop_heap(entries_.begin(), entries_.end(), splits_later());
+    entries_.pop_back();
+    if (std::isfinite(widest.bound)) finite_bounds_ -= static_cast<double>(widest.bound);
+    push(splitter_.split(widest));
   }
 
  private:
@@ -40,52 +43,74 @@ class Refinement {
   struct SplitsLater {
     const LightTree& tree;
     bool operator()(const CutEntry& a, const CutEntry& b) const {
-      const bool a_vpl = is_vpl(tree, a), b_vpl = is_vpl(tree, b);
+      const bool a_vpl = is_single_vpl(tree, a), b_vpl = is_single_vpl(tree, b);
       if (a_vpl != b_vpl) return a_vpl;
       if (a.bound != b.bound) return a.bound < b.bound;
       return a.node != b.node ? a.node > b.node : a.lanes > b.lanes;
     }
   };
-  SplitsLater splits_later() const { return {tree_}; }
+  SplitsLater splits_later() const { return {splitter_.tree()}; }
 
-  /// The first half of the lanes, the larger one where they are odd.
-  static LaneMask lower_half(LaneMask lanes) {
-    const int first = std::countr_zero(lanes), count = std::popcount(lanes);
-    const LaneMask half = (LaneMask{1} << (count + 1) / 2) - 1;
-    return half << first;
+  void push(const CutParts& parts) {
+    for (const CutEntry& part : parts.all()) {
+      if (std::isfinite(part.bound)) finite_bounds_ += static_cast<double>(part.bound);
+      entries_.push_back(part);
+      std::push_heap(entries_.begin(), entries_.end(), splits_later());
+    }
   }
 
-  void push_node(NodeIndex node) {
-    const auto evaluated = static_cast<std::uint32_t>(cut_.evaluated.size());
-    evaluate_children(tree_, node, receivers_, bound_, cut_.evaluated.emplace_back());
-    LaneMask lanes = 0;
-    for (int lane = 0; lane < LightNode::k_width; ++lane)
-      if (tree_.nodes[node].has_child(lane)) lanes |= LaneMask{1} << lane;
-    push({node, lanes, evaluated, 0});
-  }
-
-  void push(CutEntry entry) {
-    const ChildWeights& weights = cut_.evaluated[entry.evaluated];
-    for (int lane = 0; lane < LightNode::k_width; ++lane)
-      if ((entry.lanes >> lane & 1) != 0) entry.bound += weights.bound[lane];
-    if (!(entry.bound > 0)) return;
-    cut_.entries.push_back(entry);
-    std::push_heap(cut_.entries.begin(), cut_.entries.end(), splits_later());
-  }
-
-  const LightTree& tree_;
-  std::span<const Receiver> receivers_;
-  float bound_;
-  LightCut& cut_;
+  ClusterSplitter splitter_;
+  std::vector<CutEntry>& entries_;
+  double finite_bounds_ = 0;
 };
 
 }  // namespace
 
-void find_cut(const LightTree& tree, std::span<const Receiver> receivers, float bound, int cut_size, LightCut& cut) {
-  assert(cut_size >= 1);
-  Refinement refinement(tree, receivers, bound, cut);
-  while (cut.entries.size() < static_cast<std::size_t>(cut_size) && refinement.refine_widest()) {
+bool is_single_vpl(const LightTree& tree, const CutEntry& entry) {
+  return std::has_single_bit(entry.lanes) && tree.nodes[entry.node].is_leaf(std::countr_zero(entry.lanes));
+}
+
+CutParts ClusterSplitter::root() {
+  CutParts parts;
+  if (!tree_.empty()) add_node(0, parts);
+  return parts;
+}
+
+CutParts ClusterSplitter::split(const CutEntry& entry) {
+  assert(!is_single_vpl(tree_, entry));
+  CutParts parts;
+  if (std::has_single_bit(entry.lanes)) {
+    add_node(tree_.nodes[entry.node].child[std::countr_zero(entry.lanes)], parts);
+    return parts;
   }
+  const LaneMask lower = lower_half(entry.lanes);
+  add_lanes(entry.node, lower, entry.evaluated, parts);
+  add_lanes(entry.node, entry.lanes & ~lower, entry.evaluated, parts);
+  return parts;
+}
+
+void ClusterSplitter::add_node(NodeIndex node, CutParts& parts) {
+  const auto evaluated = static_cast<std::uint32_t>(evaluated_.size());
+  evaluate_children(tree_, node, receivers_, bound_, evaluated_.emplace_back());
+  LaneMask lanes = 0;
+  for (int lane = 0; lane < LightNode::k_width; ++lane)
+    if (tree_.nodes[node].has_child(lane)) lanes |= LaneMask{1} << lane;
+  add_lanes(node, lanes, evaluated, parts);
+}
+
+void ClusterSplitter::add_lanes(NodeIndex node, LaneMask lanes, std::uint32_t evaluated, CutParts& parts) const {
+  CutEntry entry{node, lanes, evaluated, 0};
+  for (int lane = 0; lane < LightNode::k_width; ++lane)
+    if ((lanes >> lane & 1) != 0) entry.bound += evaluated_[evaluated].bound[lane];
+  if (entry.bound > 0) parts.parts[parts.count++] = entry;
+}
+
+void find_cut(const LightTree& tree, std::span<const Receiver> receivers, float bound, const CutLimits& limits,
+              LightCut& cut) {
+  assert(limits.size >= 1);
+  Refinement refinement(tree, receivers, bound, cut);
+  while (cut.entries.size() < static_cast<std::size_t>(limits.size) && !refinement.is_within(limits.error))
+    refinement.refine_widest();
 }
 
 }  // namespace gradslc

@@ -14,40 +14,10 @@
 #include "lighttree/descent.h"
 #include "random_vpls.h"
 #include "support/statistics.h"
+#include "tree_walk.h"
 
 namespace gradslc {
 namespace {
-
-/// One child of a node.
-struct Child {
-  NodeIndex node;
-  int lane;
-};
-
-/// Calls visit(child) for every child at or below some lanes of a node.
-void for_each_child(const LightTree& tree, NodeIndex start, LaneMask lanes, const std::function<void(Child)>& visit) {
-  std::vector<std::pair<NodeIndex, LaneMask>> stack{{start, lanes}};
-  while (!stack.empty()) {
-    const auto [node, mask] = stack.back();
-    stack.pop_back();
-    for (int lane = 0; lane < LightNode::k_width; ++lane) {
-      if ((mask >> lane & 1) == 0 || !tree.nodes[node].has_child(lane)) continue;
-      visit({node, lane});
-      if (!tree.nodes[node].is_leaf(lane)) stack.emplace_back(tree.nodes[node].child[lane], k_all_lanes);
-    }
-  }
-}
-
-std::vector<std::uint32_t> vpls_below(const LightTree& tree, NodeIndex start, LaneMask lanes = k_all_lanes) {
-  std::vector<std::uint32_t> vpls;
-  for_each_child(tree, start, lanes, [&](Child child) {
-    if (tree.nodes[child.node].is_leaf(child.lane)) vpls.push_back(tree.nodes[child.node].vpl(child.lane));
-  });
-  return vpls;
-}
-std::vector<std::uint32_t> vpls_below(const LightTree& tree, Child child) {
-  return vpls_below(tree, child.node, LaneMask{1} << child.lane);
-}
 
 class Builders : public testing::TestWithParam<const char*> {
  protected:
@@ -105,7 +75,7 @@ TEST_P(Builders, DegenerateInputs) {
   const Receiver r = make_receiver({x, LobeSelection()});
   EXPECT_EQ(cluster_bound(cluster_of_lane(black, 0, 0), r, 1), 0);
   LightCut cut;
-  find_cut(black, {&r, 1}, 1, 10, cut);
+  find_cut(black, {&r, 1}, 1, {.size = 10}, cut);
   EXPECT_TRUE(cut.entries.empty());
 }
 
@@ -178,21 +148,7 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
       receivers.push_back(make_receiver({points.back(), LobeSelection()}));
     }
     const float bound = 0.5f;
-    // The probability of every leaf by walking all branches with the one probability function.
-    std::vector<double> probability(tree.set.vpls.size(), 0);
-    const std::function<void(NodeIndex, double)> walk = [&](NodeIndex node, double p) {
-      ChildWeights weights;
-      evaluate_children(tree, node, receivers, bound, weights);
-      const ChildProbabilities probabilities = child_probabilities(weights, k_all_lanes);
-      for (int lane = 0; lane < LightNode::k_width; ++lane) {
-        if (!tree.nodes[node].has_child(lane)) continue;
-        if (tree.nodes[node].is_leaf(lane))
-          probability[tree.nodes[node].vpl(lane)] = p * probabilities.lane[lane];
-        else
-          walk(tree.nodes[node].child[lane], p * probabilities.lane[lane]);
-      }
-    };
-    walk(0, 1);
+    const std::vector<double> probability = descent_law(tree, 0, k_all_lanes, receivers, bound);
     double lost = 1;
     for (const double p : probability) lost -= p;
     EXPECT_GE(lost, -1e-12);
@@ -205,7 +161,7 @@ TEST_P(Builders, DescentFindsEveryVplThatLightsAnyReceiverWithItsProbability) {
     std::vector<double> observed(tree.set.vpls.size() + 1, 0), expected(tree.set.vpls.size() + 1, 0);
     std::uint64_t evaluations = 0;
     LightCut cut;
-    find_cut(tree, receivers, bound, 1, cut);
+    find_cut(tree, receivers, bound, {.size = 1}, cut);
     for (int d = 0; d < k_draws && cut.entries.empty(); ++d) ++observed.back();
     for (int d = 0; d < k_draws && !cut.entries.empty(); ++d) {
       const auto sample = descend(tree, cut, cut.entries[0], receivers, bound, random.get1_double(), evaluations);
@@ -230,7 +186,7 @@ TEST_P(Builders, CutIsADisjointCoverAndAFullCutIsEveryVpl) {
   const Receiver r = make_receiver({x, LobeSelection()});
   LightCut cut;
   for (const int size : {1, 2, 7, 50, 1000}) {
-    find_cut(tree, {&r, 1}, 1, size, cut);
+    find_cut(tree, {&r, 1}, 1, {.size = size}, cut);
     EXPECT_LE(cut.entries.size(), static_cast<std::size_t>(size));
     std::vector<int> covered(tree.set.vpls.size(), 0);
     for (const CutEntry& entry : cut.entries)
