@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "support/direction_test.h"
@@ -13,6 +15,15 @@ namespace {
 
 constexpr int k_samples = 500'000;
 constexpr float k_corners[] = {0.0f, 0.25f, 0.5f, 0.75f, k_one_minus_epsilon};
+
+TEST(CosSinOfOctant, AreThoseOfTheLibrary) {
+  for (int i = -1000; i <= 1000; ++i) {
+    const double t = i / 1000.0;
+    const Vec2 p = cos_sin_of_octant(static_cast<float>(t));
+    ASSERT_NEAR(p.x, std::cos(t * std::numbers::pi / 4), 2e-7) << t;
+    ASSERT_NEAR(p.y, std::sin(t * std::numbers::pi / 4), 2e-7) << t;
+  }
+}
 
 // The tests of uniformity below have a false-alarm rate of 0.1 % each.
 TEST(SquareToDisk, IsUniform) {

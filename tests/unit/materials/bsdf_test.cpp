@@ -194,6 +194,9 @@ TEST_P(EveryBsdf, LobeSelectionSplitsItExactly) {
     for (int i = 0; i < 2000; ++i) {
       const auto [bsdf, known] = seen_from(GetParam(), random.direction());
       const Vec3 w = likely_direction(bsdf, known, all, random);
+      const Bsdf::Split split = bsdf.eval_split(known, w, all);
+      EXPECT_EQ(split.connectable, bsdf.eval(known, w, all.only_connectable()));
+      EXPECT_EQ(split.other, bsdf.eval(known, w, all.only_other()));
       expect_near(bsdf.eval(known, w, all.only_connectable()) + bsdf.eval(known, w, all.only_other()),
                   bsdf.eval(known, w, all), 1e-6f);
     }
