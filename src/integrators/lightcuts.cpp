@@ -99,18 +99,17 @@ class Lightcuts final : public Integrator {
     if (!vpl_counts(context, x, 1)) return Rgb();  // not even the first vertex of a light path
     const GatherPoint point{x, context.lobes};
     const VplView vpls{context.scene.materials(), tree.set};
-    const auto contribution_per_flux = [&](std::uint32_t index) {
-      Vpl vpl = vpls[index];
+    const auto contribution_of = [&](std::uint32_t index) {
+      const Vpl& vpl = vpls[index];
       if (!vpl_counts(context, x, vpl.vertex)) return Rgb();
-      vpl.flux = Rgb(1);
       const Rgb contribution = unshadowed_contribution(point, vpls, vpl, gather_.bound);
       if (is_black(contribution)) return Rgb();
       ++cost.shadow_rays;
       return context.scene.occluded(connection_segment(point, vpl)) ? Rgb() : contribution;
     };
     const std::uint64_t shadow_rays_before = cost.shadow_rays;
-    find_estimated_cut(tree, representatives_, make_receiver(point), gather_.bound, limits_,
-                       std::cref(contribution_per_flux), cut);
+    find_estimated_cut(tree, representatives_, make_receiver(point), gather_.bound, limits_, std::cref(contribution_of),
+                       cut);
     context.rays += cost.shadow_rays - shadow_rays_before;
     ++cost.gathers;
     cost.clusters += cut.clusters.size(), cost.representatives += cut.representatives;
