@@ -213,8 +213,8 @@ TEST(CutSelector, IsUnbiasedOverADeepTree) {
   VplSet set = random_vpls(random, 100000);
   for (Vpl& vpl : set.vpls) vpl.flux *= std::exp(4 * random.get1() - 2);
   const LightTree tree = builder_registry()[0].build(std::move(set));
-  constexpr float k_bound = 2;
-  constexpr int k_receivers = 2, k_draws = 40000;
+  constexpr float k_bound = 0.3f;
+  constexpr int k_receivers = 2, k_draws = 20000;
   for (int k = 0; k < k_receivers; ++k) {
     const ShadedPoint x = random_gather_point(random, 1.2f);
     const Receiver receiver = make_receiver({x, LobeSelection()});
@@ -224,7 +224,7 @@ TEST(CutSelector, IsUnbiasedOverADeepTree) {
       contribution.push_back(static_cast<double>(luminance(unshadowed(x, tree, i, k_bound))));
       exact += contribution.back();
     }
-    CutSelector selector(tree, {.size = 60}, k_bound);
+    CutSelector selector(tree, {.size = 100}, k_bound);
     Moments moments;
     for (std::uint32_t draw = 0; draw < k_draws; ++draw) {
       const SampleStream stream(SamplerKind::independent, 7, static_cast<std::uint64_t>(k), draw);
