@@ -214,7 +214,7 @@ TEST(CutSelector, IsUnbiasedOverADeepTree) {
   for (Vpl& vpl : set.vpls) vpl.flux *= std::exp(4 * random.get1() - 2);
   const LightTree tree = builder_registry()[0].build(std::move(set));
   constexpr float k_bound = 0.3f;
-  constexpr int k_receivers = 2, k_draws = 20000;
+  constexpr int k_receivers = 2, k_draws = 30000;
   for (int k = 0; k < k_receivers; ++k) {
     const ShadedPoint x = random_gather_point(random, 1.2f);
     const Receiver receiver = make_receiver({x, LobeSelection()});
