@@ -103,17 +103,16 @@ class Lightcuts final : public Integrator {
     if (x.edges + 2 > settings_.max_depth) return Rgb();  // not even the first vertex of a light path counts
     const GatherPoint point{x, context.lobes};
     const VplView vpls{context.scene.materials(), tree.set};
-    const auto contribution_per_flux = [&](std::uint32_t index) {
-      Vpl vpl = vpls[index];
+    const auto contribution_of = [&](std::uint32_t index) {
+      const Vpl& vpl = vpls[index];
       if (!vpl_may_count(context, x, vpl)) return Rgb();
-      vpl.flux = Rgb(1);
       const Rgb contribution = unshadowed_contribution(point, vpls, vpl, gather_.bound);
       if (is_black(contribution)) return Rgb();
       ++cost.shadow_rays;
       return contribution * connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
     };
-    find_estimated_cut(tree, representatives_, make_receiver(point), gather_.bound, limits_,
-                       std::cref(contribution_per_flux), cut);
+    find_estimated_cut(tree, representatives_, make_receiver(point), gather_.bound, limits_, std::cref(contribution_of),
+                       cut);
     ++cost.gathers;
     cost.clusters += cut.clusters.size(), cost.representatives += cut.representatives;
     cost.node_evaluations += cut.evaluated.size();

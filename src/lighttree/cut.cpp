@@ -26,8 +26,7 @@ class Refinement {
   /// Whether nothing is left to refine, or no bound of what is left is above `error` of all.
   bool is_within(float error) const {
     if (entries_.empty() || is_single_vpl(splitter_.tree(), entries_.front())) return true;
-    const float largest = entries_.front().bound;
-    return std::isfinite(largest) && static_cast<double>(largest) <= static_cast<double>(error) * finite_bounds_;
+    return static_cast<double>(entries_.front().bound) <= static_cast<double>(error) * finite_bounds_;
   }
 
   void refine_widest() {

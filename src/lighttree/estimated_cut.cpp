@@ -14,12 +14,9 @@ bool splits_later(const EstimatedCluster& a, const EstimatedCluster& b) {
 
 class Refinement {
  public:
-  Refinement(const Representatives& representatives, const ContributionPerFlux& contribution_per_flux,
-             ClusterSplitter splitter, EstimatedCut& cut)
-      : representatives_(representatives),
-        contribution_per_flux_(contribution_per_flux),
-        splitter_(splitter),
-        cut_(cut) {
+  Refinement(const Representatives& representatives, const Contribution& contribution, ClusterSplitter splitter,
+             EstimatedCut& cut)
+      : representatives_(representatives), contribution_(contribution), splitter_(splitter), cut_(cut) {
     cut_.clusters.clear(), cut_.evaluated.clear(), cut_.representatives = 0;
     for (const CutEntry& part : splitter_.root().all()) push(part, nullptr);
   }
@@ -33,29 +30,30 @@ class Refinement {
     const EstimatedCluster widest = cut_.clusters.front();
     std::pop_heap(cut_.clusters.begin(), cut_.clusters.end(), splits_later);
     cut_.clusters.pop_back();
-    total_ -= static_cast<double>(luminance(widest.estimate()));
+    total_ -= static_cast<double>(luminance(widest.estimate));
     for (const CutEntry& part : splitter_.split(widest.entry).all()) push(part, &widest);
   }
 
  private:
   void push(const CutEntry& entry, const EstimatedCluster* parent) {
-    EstimatedCluster cluster{entry, representatives_.of(entry.node, entry.lanes), Rgb(), 0};
-    if (parent && parent->representative.vpl == cluster.representative.vpl) {
-      cluster.per_flux = parent->per_flux;
+    EstimatedCluster cluster{entry, representatives_.of(entry.node, entry.lanes), Rgb(), Rgb(), 0};
+    const auto [vpl, flux] = cluster.representative;
+    if (parent && parent->representative.vpl == vpl) {
+      cluster.contribution = parent->contribution;
     } else {
-      cluster.per_flux = contribution_per_flux_(cluster.representative.vpl);
+      cluster.contribution = contribution_(vpl);
       ++cut_.representatives;
     }
-    const float estimate = luminance(cluster.estimate());
-    total_ += static_cast<double>(estimate);
-    if (!is_single_vpl(splitter_.tree(), entry))
-      cluster.error = std::max(entry.bound * (k_inv_pi * k_inv_pi), estimate);
+    // The bound is > 0, so some VPL of the cluster has flux, and so does its representative.
+    cluster.estimate = cluster.contribution * (flux / luminance(splitter_.tree().set.vpls[vpl].flux));
+    total_ += static_cast<double>(luminance(cluster.estimate));
+    if (!is_single_vpl(splitter_.tree(), entry)) cluster.error = entry.bound * (k_inv_pi * k_inv_pi);
     cut_.clusters.push_back(cluster);
     std::push_heap(cut_.clusters.begin(), cut_.clusters.end(), splits_later);
   }
 
   const Representatives& representatives_;
-  const ContributionPerFlux& contribution_per_flux_;
+  const Contribution& contribution_;
   ClusterSplitter splitter_;
   EstimatedCut& cut_;
   double total_ = 0;  ///< luminance of all estimates
@@ -66,18 +64,16 @@ class Refinement {
 Rgb EstimatedCut::total() const {
   double sum[3] = {};
   for (const EstimatedCluster& cluster : clusters) {
-    const Rgb estimate = cluster.estimate();
-    for (int channel = 0; channel < 3; ++channel) sum[channel] += static_cast<double>(estimate[channel]);
+    for (int channel = 0; channel < 3; ++channel) sum[channel] += static_cast<double>(cluster.estimate[channel]);
   }
   return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};
 }
 
 void find_estimated_cut(const LightTree& tree, const Representatives& representatives, const Receiver& receiver,
-                        float bound, const ErrorLimits& limits, const ContributionPerFlux& contribution_per_flux,
-                        EstimatedCut& cut) {
+                        float bound, const ErrorLimits& limits, const Contribution& contribution, EstimatedCut& cut) {
   assert(limits.most_clusters >= 1);
-  Refinement refinement(representatives, contribution_per_flux,
-                        ClusterSplitter(tree, {&receiver, 1}, bound, cut.evaluated), cut);
+  Refinement refinement(representatives, contribution, ClusterSplitter(tree, {&receiver, 1}, bound, cut.evaluated),
+                        cut);
   while (cut.clusters.size() < static_cast<std::size_t>(limits.most_clusters) &&
          !refinement.is_within(limits.error_ratio))
     refinement.refine_widest();

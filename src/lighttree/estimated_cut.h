@@ -12,10 +12,9 @@ namespace gradslc {
 struct EstimatedCluster {
   CutEntry entry;
   Representatives::Representative representative;
-  Rgb per_flux;  ///< the representative's contribution if its flux were 1
-  float error;   ///< bound of how far the luminance of estimate() may be off; 0: a VPL by itself, exact
-
-  Rgb estimate() const { return per_flux * representative.flux; }
+  Rgb contribution;  ///< the representative's alone
+  Rgb estimate;      ///< of the cluster: the same, scaled by the cluster's flux over the representative's
+  float error;       ///< the bound of what its VPLs bring, luminance; 0: a VPL by itself, exact
 };
 
 /// Lightcuts' cut (Walter et al. 2005) for one receiver. Keeps its memory between uses.
@@ -33,14 +32,14 @@ struct ErrorLimits {
   int most_clusters = 1000;   ///< >= 1
 };
 
-/// What a VPL brings to the receiver, its visibility included, if its flux were 1 in every channel.
-using ContributionPerFlux = std::function<Rgb(std::uint32_t vpl)>;
+/// What a VPL brings to the receiver, its visibility included.
+using Contribution = std::function<Rgb(std::uint32_t vpl)>;
 
 /// Refines the cut from the root, largest error first, until a limit is reached. The part of a cluster that holds its
-/// representative keeps that and what is known of it. A cluster's error is its bound (unshadowed), or its estimate
-/// where that is larger: a representative with gloss, or with another cap than the rest, may say more than the bound.
+/// representative keeps that and what is known of it. A cluster's error is its bound (unshadowed), and nothing sampled:
+/// where a representative says more than the bound, as one with gloss or another cap than the rest may, refining for
+/// that would take back what is too much, leave what is too little, and darken.
 void find_estimated_cut(const LightTree& tree, const Representatives& representatives, const Receiver& receiver,
-                        float bound, const ErrorLimits& limits, const ContributionPerFlux& contribution_per_flux,
-                        EstimatedCut& cut);
+                        float bound, const ErrorLimits& limits, const Contribution& contribution, EstimatedCut& cut);
 
 }  // namespace gradslc

@@ -49,10 +49,10 @@ Representatives::Representatives(const LightTree& tree, std::uint64_t seed) : no
         for (int lane = 0; lane < LightNode::k_width; ++lane) {
           Lane& chosen = nodes_[levels.nodes[i]][static_cast<std::size_t>(lane)];
           if (!node.has_child(lane)) {
-            chosen = {k_infinity, LightNode::k_none, Rgb()};
+            chosen = {k_infinity, LightNode::k_none, 0};
           } else if (node.is_leaf(lane)) {
-            const Rgb flux = tree.set.vpls[node.vpl(lane)].flux;
-            chosen = {exponential_key(seed, node.vpl(lane), luminance(flux)), node.vpl(lane), flux};
+            const float flux = luminance(tree.set.vpls[node.vpl(lane)].flux);
+            chosen = {exponential_key(seed, node.vpl(lane), flux), node.vpl(lane), flux};
           } else {
             chosen = merged(node.child[lane], k_all_lanes);
           }
@@ -63,7 +63,7 @@ Representatives::Representatives(const LightTree& tree, std::uint64_t seed) : no
 }
 
 Representatives::Lane Representatives::merged(NodeIndex node, LaneMask lanes) const {
-  Lane merged{k_infinity, LightNode::k_none, Rgb()};
+  Lane merged{k_infinity, LightNode::k_none, 0};
   for (int lane = 0; lane < LightNode::k_width; ++lane) {
     if ((lanes >> lane & 1) == 0) continue;
     const Lane& other = nodes_[node][static_cast<std::size_t>(lane)];

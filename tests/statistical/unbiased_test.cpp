@@ -30,6 +30,7 @@ const std::vector<Method>& lightcut_methods() {
       {"gradslc random replay 5x2",
        "gradslc",
        {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}, {"block/width", 5.0}, {"block/height", 2.0}}},
+      {"slc, cuts by error", "slc", {{"vpl/light_paths", 300.0}, {"cut_size", 30.0}, {"cut_error", 0.2}}},
   };
   return k_methods;
 }

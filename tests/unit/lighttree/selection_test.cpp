@@ -15,7 +15,8 @@
 namespace gradslc {
 namespace {
 
-/// Lambertian VPLs that face +z, and a receiver which all of them light.
+/// Lambertian VPLs on a thick floor that face +z, and a receiver near by that all of them light: distances to the near
+/// and far sides of clusters differ much.
 struct LitTree {
   LightTree tree;
   ShadedPoint x;
@@ -43,11 +44,14 @@ struct LitTree {
 
 LitTree lit_tree(TestRandom& random, std::size_t count) {
   VplSet set = random_vpls(random, count);
-  for (Vpl& vpl : set.vpls) vpl.geometric_normal = vpl.shading_normal = OctahedralNormal({0, 0, 1});
+  for (Vpl& vpl : set.vpls) {
+    vpl.position.z *= 0.1f;
+    vpl.geometric_normal = vpl.shading_normal = OctahedralNormal({0, 0, 1});
+  }
   LitTree lit{builder_registry()[0].build(std::move(set)), {}, {}};
   bool all = false;
   while (!all) {
-    lit.x = random_gather_point(random, 2);
+    lit.x = random_gather_point(random, 1);
     all = true;
     for (std::uint32_t i = 0; i < count && all; ++i) all = lit.contribution(i) > 0;
   }
@@ -236,9 +240,27 @@ TEST_F(Inheritance, HasTheLawOfFreshDrawsWhereLawsNest) {
   EXPECT_GT(least_p_value(EntryLaw::conditional), sidak(0.001, 1 + k_entries));
 }
 
-// A control: the halves of a node's children renormalise nearest and farthest importance each by itself, so that their
-// laws do not nest; samples handed down would not have the probability that descent states.
-TEST_F(Inheritance, HasAnotherLawForHalvesOfANode) { EXPECT_LT(least_p_value(EntryLaw::descent), 1e-6); }
+// Halves of a node's children renormalise nearest and farthest importance each by itself: their laws do not nest, and
+// samples handed down would not have the probability that descent states. A single child's node has the child's law.
+TEST_F(Inheritance, LawsNestBetweenLevelsAndNotBetweenHalvesOfANode) {
+  const LightNode& root = lit_.tree.nodes[0];
+  ASSERT_TRUE(root.has_child(7) && !root.is_leaf(7));
+  std::vector<ChildWeights> evaluated;
+  ClusterSplitter splitter(lit_.tree, lit_.receivers(), k_infinity, evaluated);
+  double largest_difference = 0;
+  for (const CutEntry& half : splitter.split(splitter.root().parts[0]).all()) {
+    const std::vector<double> stated = law(half, EntryLaw::descent), inherited = law(half, EntryLaw::conditional);
+    double difference = 0;  // total variation
+    for (std::size_t i = 0; i < stated.size(); ++i) difference += 0.5 * std::abs(stated[i] - inherited[i]);
+    largest_difference = std::max(largest_difference, difference);
+  }
+  EXPECT_GT(largest_difference, 1e-3);
+
+  const CutEntry child{0, 0b10000000, 0, 0};
+  const std::vector<double> above = law(child, EntryLaw::descent);
+  const std::vector<double> below = law({root.child[7], k_all_lanes, 0, 0}, EntryLaw::descent);
+  for (std::size_t i = 0; i < above.size(); ++i) EXPECT_NEAR(above[i], below[i], 1e-12);
+}
 
 }  // namespace
 }  // namespace gradslc
