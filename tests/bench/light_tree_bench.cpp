@@ -136,6 +136,7 @@ BENCHMARK(sort_radix)->Apply(sizes);
 BENCHMARK(sort_spread)->ArgNames({"count", "threads"})->Args({10'000'000, 1})->Unit(benchmark::kMillisecond);
 BENCHMARK(sort_standard)->ArgNames({"count", "threads"})->Args({10'000'000, 1})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(build, pairs, "pairs", false)->Apply(tree_sizes);
+BENCHMARK_CAPTURE(build, saoh, "saoh", false)->Apply(tree_sizes);
 BENCHMARK_CAPTURE(build, pairs_glossy, "pairs", true)->Apply(sizes);
 
 }  // namespace

@@ -95,7 +95,7 @@ void fill_run(LightTree& tree, const Run& run) {
 }
 
 /// Nodes for each VPL, as found on walls of rooms: an eighth are leaves' nodes.
-constexpr double k_nodes_per_vpl = 0.154;
+constexpr double k_nodes_per_vpl = 0.1545;
 constexpr double k_topology_bytes = 3;  // for each VPL
 
 }  // namespace

@@ -12,12 +12,37 @@
 #include "lighttree/bounds.h"
 #include "lighttree/cut.h"
 #include "lighttree/descent.h"
+#include "lighttree/fill_node.h"
 #include "random_vpls.h"
 #include "support/statistics.h"
 #include "tree_walk.h"
 
 namespace gradslc {
 namespace {
+
+// The SIMD twin of make_cluster(), to the bit.
+TEST(FillNode, LeavesAreTheirVplsClusters) {
+  TestRandom random(11);
+  for (int round = 0; round < 1000; ++round) {
+    LightTree tree;
+    tree.set = random_vpls(random, 1 + random.below(8), 1, round % 2 == 0);
+    const auto count = static_cast<int>(tree.set.vpls.size());
+    resize_nodes(tree, 1);
+    fill_leaf_node(tree, 0, 0, count);
+    ASSERT_EQ(tree.nodes[0].child_count(), count);
+    for (int lane = 0; lane < count; ++lane) {
+      const LightCluster scalar = make_cluster(tree.set, tree.set.vpls[static_cast<std::size_t>(lane)]);
+      const LightCluster filled = cluster_of_lane(tree, 0, lane);
+      EXPECT_EQ(filled.box.lower, scalar.box.lower);
+      EXPECT_EQ(filled.box.upper, scalar.box.upper);
+      EXPECT_EQ(filled.flux, scalar.flux);
+      EXPECT_EQ(filled.capped_flux, scalar.capped_flux);
+      EXPECT_EQ(filled.normals.axis, scalar.normals.axis);
+      EXPECT_EQ(filled.normals.cosine, scalar.normals.cosine);
+      EXPECT_EQ(filled.gloss.peak, scalar.gloss.peak);
+    }
+  }
+}
 
 class Builders : public testing::TestWithParam<const char*> {
  protected:
@@ -79,9 +104,56 @@ TEST_P(Builders, DegenerateInputs) {
   EXPECT_TRUE(cut.entries.empty());
 }
 
+std::size_t depth_of(const LightTree& tree) {
+  std::vector<std::size_t> depth(tree.nodes.size(), 1);
+  std::size_t deepest = 1;
+  for_each_child(tree, 0, k_all_lanes, [&](Child child) {  // parents come before their children
+    const LightNode& node = tree.nodes[child.node];
+    if (node.is_leaf(child.lane)) return;
+    depth[node.child[child.lane]] = depth[child.node] + 1;
+    deepest = std::max(deepest, depth[child.node] + 1);
+  });
+  return deepest;
+}
+
+TEST_P(Builders, DepthAndMemoryAreBoundedWhateverThePositions) {
+  TestRandom random(9);
+  constexpr std::size_t k_count = 4097;
+  const VplSet scattered = random_vpls(random, k_count);
+  VplSet point = scattered, line = scattered, plane = scattered, converging = scattered, duplicates = scattered;
+  for (std::size_t i = 0; i < k_count; ++i) {
+    point.vpls[i].position = {1, 2, 3};
+    line.vpls[i].position = {static_cast<float>(i), 0, 0};
+    plane.vpls[i].position.z = 0;
+    const float nearer = std::ldexp(1.0f, -static_cast<int>(i % 120));
+    converging.vpls[i].position = {nearer, -nearer, nearer};
+    duplicates.vpls[i].position = duplicates.vpls[i % 7].position;
+  }
+  for (const VplSet& set : {scattered, point, line, plane, converging, duplicates}) {
+    const LightTree tree = build(set);
+    EXPECT_EQ(vpls_below(tree, 0).size(), k_count);
+    EXPECT_LE(depth_of(tree), 10u);  // 5 where all nodes are full
+    EXPECT_LE(tree.nodes.size(), k_count / 5);
+  }
+}
+
+TEST_P(Builders, TakesTheMemoryThatIsPlanned) {
+  TestRandom random(10);
+  constexpr std::size_t k_count = 100000;
+  VplSet set = random_vpls(random, k_count);
+  for (Vpl& vpl : set.vpls) vpl.position.z = 0;
+  for (const BuilderEntry& entry : builder_registry()) {
+    if (std::string(entry.name) != GetParam()) continue;
+    const VplCounts counts{static_cast<double>(k_count), 0};
+    const double bytes = counts.bytes() + static_cast<double>(build(set).nodes.size() * sizeof(LightNode));
+    EXPECT_NEAR(entry.resident_bytes(counts), bytes, 0.03 * bytes);
+    EXPECT_GE(entry.peak_bytes(counts), entry.resident_bytes(counts));
+  }
+}
+
 TEST_P(Builders, SameBitsForAnyNumberOfThreads) {
   TestRandom random(4);
-  const VplSet vpls = random_vpls(random, 30000);
+  const VplSet vpls = random_vpls(random, 70000);
   const int threads_before = thread_count();
   set_thread_count(1);
   const LightTree one = build(vpls);

@@ -63,6 +63,22 @@ TEST(LightTracing, SameBitsForAnyNumberOfThreads) {
   set_thread_count(threads_before);
 }
 
+// Rounds of 2^18 paths are appended one after another.
+TEST(LightTracing, ASetOfSeveralRoundsIsInTheOrderOfItsPaths) {
+  const Scene scene = test_box({4, 4});
+  constexpr std::int64_t k_paths = (1 << 18) + 3000;
+  const VplSet all = trace_vpls(scene, settings_for(k_paths, 1));
+  const VplSet first = trace_vpls(scene, settings_for(5000, 1));
+  ASSERT_LT(first.vpls.size(), all.vpls.size());
+  for (std::size_t i = 0; i < first.vpls.size(); ++i) ASSERT_EQ(all.vpls[i].position, first.vpls[i].position);
+  LightTracingSettings later = settings_for(5000, 1);
+  later.set = 1;
+  const VplSet second = trace_vpls(scene, later);
+  for (std::size_t i = 0; i < second.vpls.size(); ++i)
+    ASSERT_EQ(all.vpls[first.vpls.size() + i].position, second.vpls[i].position);
+  EXPECT_EQ(all.rays, static_cast<std::uint64_t>(k_paths));
+}
+
 TEST(LightTracing, SetsContinueTheSequenceAndDiffer) {
   const Scene scene = test_box({4, 4});
   LightTracingSettings settings = settings_for(512, 2);
