@@ -1,0 +1,86 @@
+// No pixel of a tile is short of light: with the same VPLs, camera rays and compensation rays, gathering by tiles has
+// the mean of gathering from every VPL, pixel by pixel, on a scene whose tiles hold receivers that their neighbours do
+// not stand for: thin poles and steps on a floor, corners, silhouettes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/render/method.h"
+#include "support/render/scenes.h"
+
+namespace gradslc {
+namespace {
+
+/// A floor with thin poles, steps and two walls under a lamp. The poles stand upright in the light of the floor, which
+/// the floor around them does not get.
+Scene poles_and_steps(Resolution resolution) {
+  SceneDescription scene;
+  scene.materials = {diffuse_material(Rgb(0.8f, 0.7f, 0.6f)), diffuse_material(Rgb(0.9f))};
+  scene.meshes.push_back(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 0));  // floor
+  scene.meshes.push_back(quad({-2, 0, -2}, {4, 0, 0}, {0, 2, 0}, 0));  // back wall
+  scene.meshes.push_back(quad({-2, 0, 2}, {0, 0, -4}, {0, 2, 0}, 0));  // left wall: a corner
+  for (int i = 0; i < 7; ++i) {
+    const float x = -1.5f + 0.5f * static_cast<float>(i), z = i % 2 == 0 ? 0.6f : -0.4f;
+    scene.meshes.push_back(outward_box({x, 0, z}, {x + 0.03f, 0.35f, z + 0.03f}, 1));
+  }
+  for (int i = 0; i < 4; ++i) {
+    const float height = 0.12f * static_cast<float>(i + 1);
+    scene.meshes.push_back(outward_box({-0.8f, 0, -1 - 0.2f * static_cast<float>(i)},
+                                       {0.9f, height, -0.8f - 0.2f * static_cast<float>(i)}, 0));
+  }
+  TriangleMesh lamp = quad({-0.4f, 1.9f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, 0);
+  lamp.area_light = 0;
+  scene.meshes.push_back(lamp);
+  scene.area_lights.push_back({Rgb(10.0f)});
+  scene.camera = camera_at(resolution, {0.4f, 1.1f, 2.6f}, {0, 0.15f, 0}, 60);
+  return Scene(std::move(scene));
+}
+
+/// Smallest p-value over pixels of "both have the same mean", Student's t over passes.
+double smallest_p_value(const Scene& scene, const Method& method, std::uint32_t passes) {
+  const RenderSettings settings{.seed = 11, .max_depth = 5, .components = {.emission = false, .direct = false}};
+  const Method every{"every VPL", "vpl", {{"vpl/light_paths", 40.0}}};
+  const auto a = method.make(), b = every.make();
+  a->prepare(scene, settings), b->prepare(scene, settings);
+  const Resolution resolution = scene.camera().resolution();
+  std::vector<Moments> differences(resolution.pixels());
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    Film film_a(resolution, {}), film_b(resolution, {});
+    a->render_pass(pass, film_a), b->render_pass(pass, film_b);
+    const RgbImage image_a = film_a.primal(), image_b = film_b.primal();
+    for (std::size_t i = 0; i < differences.size(); ++i)
+      differences[i].add(static_cast<double>(luminance(image_a[i])) - static_cast<double>(luminance(image_b[i])));
+  }
+  double smallest = 1;
+  for (const Moments& m : differences) smallest = std::min(smallest, m.p_value(0));
+  return smallest;
+}
+
+Method tile_method(double defensive, double cosine_floor, double size) {
+  return {"slc tile",
+          "slc",
+          {{"gather", "tile"},
+           {"tile/size", size},
+           {"tile/candidates", 128.0},
+           {"tile/samples", 16.0},
+           {"tile/defensive", defensive},
+           {"tile/cosine_floor", cosine_floor},
+           {"compensation/pilot_passes", 0.0},
+           {"vpl/light_paths", 40.0}}};
+}
+
+// False-alarm rate 0.1 % over both sizes and all pixels.
+TEST(TileGather, NoReceiverOfATileIsShortOfLight) {
+  const Scene scene = poles_and_steps({40, 28});
+  for (const double size : {7.0, 16.0})
+    EXPECT_GT(smallest_p_value(scene, tile_method(0.1, 0.2, size), 400), sidak(0.001, 2 * 40 * 28)) << size;
+}
+
+TEST(TileGather, ALawOfRepresentativesAloneIsSeenToFail) {
+  const Scene scene = poles_and_steps({40, 28});
+  EXPECT_LT(smallest_p_value(scene, tile_method(0, 0, 16), 400), 1e-9);
+}
+
+}  // namespace
+}  // namespace gradslc
