@@ -168,9 +168,16 @@ void ConfigReader::read_reference(JsonObjectReader& reader) {
   ReferencePlan& plan = experiment_.reference;
   reference.integer("spp", plan.spp, {2, k_most_passes}, "samples per pixel", "of both halves together");
   if (const auto file = existing_file(reference, "file")) plan.file = *file;
+  if (const auto method = reference.member("method")) {
+    plan.method = read_method(document_, *method, registries_, problems_);
+    if (plan.method && plan.method->reconstruction != "none")
+      reference.problem("method", "must not be reconstructed: a reference is what the method itself converges to");
+    if (plan.method) plan.resolved_method = resolved_method(*plan.method, registries_);
+  }
   reference.report_unknown_keys();
   const bool rendered = reference.member("spp").has_value(), imported = reference.member("file").has_value();
   if (rendered == imported) return reader.problem("reference", "must hold one of \"spp\" and \"file\"");
+  if (imported && plan.method) reference.problem("method", "has no effect on an imported reference; remove it");
   plan.kind = rendered ? ReferencePlan::Kind::render : ReferencePlan::Kind::file;
 }
 
@@ -239,6 +246,7 @@ json resolved_config(const Experiment& experiment, const Registries& registries)
     resolved["budget"] = {{"seconds", experiment.budget.value}};
   if (experiment.reference.kind == ReferencePlan::Kind::render)
     resolved["reference"] = {{"spp", experiment.reference.spp}};
+  if (experiment.reference.method) resolved["reference"]["method"] = experiment.reference.resolved_method;
   if (experiment.reference.kind == ReferencePlan::Kind::file)
     resolved["reference"] = {{"file", experiment.reference.file.string()}};
   return resolved;

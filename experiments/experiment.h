@@ -40,6 +40,9 @@ struct ReferencePlan {
   Kind kind = Kind::none;
   int spp = 0;                 ///< of both halves together
   std::filesystem::path file;  ///< an imported image
+  /// What renders it, where that is not `spt` with its defaults: an unbiased method, without reconstruction.
+  std::optional<MethodPlan> method;
+  nlohmann::json resolved_method;  ///< with all its parameters; null without a method
 };
 
 /// A config, resolved and validated: everything that a run depends on.

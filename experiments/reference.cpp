@@ -22,13 +22,24 @@ constexpr const char* k_integrator = "spt";
 /// Passes of one half; the spp of both are rounded up to an even number.
 int passes_per_half(int spp) { return (spp + 1) / 2; }
 
-RgbImage render_half(int half, int passes, const Scene& scene, RenderSettings settings, const Makers& makers,
-                     const std::function<void(double)>& progress) {
+MethodPlan method_of(const ReferencePlan& plan) {
+  MethodPlan method =
+      plan.method.value_or(MethodPlan{"", k_integrator, nlohmann::json::object(), "none", nlohmann::json::object()});
+  method.name = "reference";
+  return method;
+}
+
+RgbImage render_half(int half, int passes, const MethodPlan& method, const Scene& scene, RenderSettings settings,
+                     const Makers& makers, const std::function<void(double)>& progress) {
   settings.seed = hash_combine(k_reference_seed, static_cast<std::uint64_t>(half));
-  const std::unique_ptr<Integrator> integrator =
-      makers.integrator({"reference", k_integrator, nlohmann::json::object(), "none", nlohmann::json::object()});
+  const std::unique_ptr<Integrator> integrator = makers.integrator(method);
   integrator->prepare(scene, settings);
-  Film film(scene.camera().resolution(), {});
+  const IntegratorTraits traits = integrator->traits();
+  if (traits.biased || traits.truncated || traits.one_set)
+    throw_input_error("", fmt::format("the reference's method \"{}\" does not converge to the right image with these "
+                                      "parameters; choose an unbiased one",
+                                      method.integrator));
+  Film film(scene.camera().resolution(), {.gradients = traits.gradients});
   for (int pass = 0; pass < passes; ++pass) {
     integrator->render_pass(static_cast<std::uint32_t>(pass), film);
     progress((half + static_cast<double>(pass + 1) / passes) / 2);
@@ -71,10 +82,11 @@ Reference read_reference(const std::filesystem::path& file) {
   return reference;
 }
 
-Reference rendered_reference(int spp, const Scene& scene, const nlohmann::json& key, const RenderSettings& settings,
-                             const std::filesystem::path& folder, const Makers& makers,
+Reference rendered_reference(const ReferencePlan& plan, const Scene& scene, const nlohmann::json& key,
+                             const RenderSettings& settings, const std::filesystem::path& folder, const Makers& makers,
                              const std::function<void(const std::string&)>& log,
                              const std::function<void(double)>& progress) {
+  const int spp = plan.spp;
   const std::filesystem::path file = folder / (sha256(key.dump()) + ".exr");
   Reference reference;
   // The JSON is written last: without it the image may not be whole.
@@ -88,7 +100,7 @@ Reference rendered_reference(int spp, const Scene& scene, const nlohmann::json& 
     const Seconds begin = makers.clock();
     for (const int half : {0, 1}) {
       (half == 0 ? reference.images.a : reference.images.b) =
-          render_half(half, passes, scene, settings, makers, progress);
+          render_half(half, passes, method_of(plan), scene, settings, makers, progress);
     }
     const Seconds time = makers.clock() - begin;
     reference.about = {{"key", key},
@@ -138,13 +150,19 @@ Reference imported_reference(const std::filesystem::path& file, Resolution wante
   return reference;
 }
 
-nlohmann::json reference_key(const std::string& scene_hash, Resolution resolution, const RenderSettings& settings,
-                             int spp) {
+nlohmann::json reference_key(const ReferencePlan& plan, const std::string& scene_hash, Resolution resolution,
+                             const RenderSettings& settings) {
   nlohmann::json estimand = to_json(settings);
   estimand.erase("seed");
-  return {{"integrator", k_integrator},  {"scene", scene_hash},  {"width", resolution.width},
-          {"height", resolution.height}, {"settings", estimand}, {"spp", 2 * passes_per_half(spp)},
-          {"seed", k_reference_seed}};
+  nlohmann::json key = {{"integrator", method_of(plan).integrator},
+                        {"scene", scene_hash},
+                        {"width", resolution.width},
+                        {"height", resolution.height},
+                        {"settings", estimand},
+                        {"spp", 2 * passes_per_half(plan.spp)},
+                        {"seed", k_reference_seed}};
+  if (plan.method) key["method"] = plan.resolved_method;
+  return key;
 }
 
 Reference obtain_reference(const ReferencePlan& plan, const Scene& scene, const std::string& scene_hash,
@@ -153,8 +171,8 @@ Reference obtain_reference(const ReferencePlan& plan, const Scene& scene, const 
                            const std::function<void(double)>& progress) {
   const Resolution resolution = scene.camera().resolution();
   if (plan.kind == ReferencePlan::Kind::file) return imported_reference(plan.file, resolution);
-  const nlohmann::json key = reference_key(scene_hash, resolution, settings, plan.spp);
-  Reference reference = rendered_reference(plan.spp, scene, key, settings, folder, makers, log, progress);
+  const nlohmann::json key = reference_key(plan, scene_hash, resolution, settings);
+  Reference reference = rendered_reference(plan, scene, key, settings, folder, makers, log, progress);
   finish(reference);
   return reference;
 }

@@ -210,6 +210,12 @@ TEST_F(Config, EachSlipHasOneMessage) {
       {R"({"budget": 20})", "/budget: must be an object, not 20"},
       {R"({"reference": {}})", "/reference: must hold one of \"spp\" and \"file\""},
       {R"({"reference": {"spp": 8, "file": "reference.exr"}})", "/reference: must hold one of \"spp\" and \"file\""},
+      {R"({"reference": {"spp": 8, "method": {"integrator": "slc", "cut_sise": 3}}})",
+       "/reference/method/cut_sise: unknown key; did you mean \"cut_size\"?"},
+      {R"({"reference": {"spp": 8, "method": {"integrator": "slc", "reconstruction": "l2"}}})",
+       "/reference/method: must not be reconstructed: a reference is what the method itself converges to"},
+      {R"({"reference": {"file": "reference.exr", "method": {"integrator": "slc"}}})",
+       "/reference/method: has no effect on an imported reference; remove it"},
       {R"({"reference": {"spp": 1}})", "/reference/spp: must be 2 to 1073741824 [samples per pixel], not 1"},
   };
   for (const Case& bad : cases)

@@ -51,6 +51,22 @@ TEST_F(ReferenceTest, HasTwoHalvesThatAreIndependentAndAKnownError) {
   EXPECT_LT(std::abs(product), 5 * 0.25 / 32 / std::sqrt(200));
 }
 
+TEST_F(ReferenceTest, IsRenderedByTheMethodThatThePlanNames) {
+  const ReferencePlan by_default{.kind = ReferencePlan::Kind::render, .spp = 8};
+  ReferencePlan by_lightcuts = by_default;
+  by_lightcuts.method = MethodPlan{"any name", "slc", {}, "none", {}};
+  by_lightcuts.resolved_method = {{"integrator", "slc"}, {"cut_size", 10}};
+  const nlohmann::json key = reference_key(by_default, "scene", {20, 10}, {});
+  EXPECT_EQ(key["integrator"], "spt");
+  const nlohmann::json other = reference_key(by_lightcuts, "scene", {20, 10}, {});
+  EXPECT_EQ(other["integrator"], "slc");
+  by_lightcuts.resolved_method["cut_size"] = 20;
+  EXPECT_NE(reference_key(by_lightcuts, "scene", {20, 10}, {}), other);
+  obtain(by_default);
+  obtain(by_lightcuts);
+  EXPECT_EQ(passes_rendered(), 16u);  // one does not serve for the other
+}
+
 TEST_F(ReferenceTest, IsKeptAndReadAgainToTheBit) {
   const Reference first = rendered(8);
   const Reference second = rendered(8);
