@@ -1,7 +1,10 @@
 #include "core/radix_sort.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -29,25 +32,31 @@ bool scan(std::vector<Histogram>& histograms, std::size_t count) {
 
 }  // namespace
 
-void radix_sort(BulkVector<SortRecord>& records) {
+void radix_sort(std::span<SortRecord> records, std::span<SortRecord> scratch) {
+  assert(scratch.size() == records.size());
   constexpr std::size_t k_grain = std::size_t{1} << 16;
   const std::size_t count = records.size();
   if (count < 2) return;
-  BulkVector<SortRecord> other(count);
+  std::span<SortRecord> from = records, to = scratch;
   std::vector<Histogram> histograms((count + k_grain - 1) / k_grain);
   for (unsigned shift = 0; shift < 64; shift += 8) {
     parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
       Histogram histogram{};
-      for (std::size_t i = begin; i < end; ++i) ++histogram[records[i].key >> shift & 0xff];
+      for (std::size_t i = begin; i < end; ++i) ++histogram[from[i].key >> shift & 0xff];
       histograms[begin / k_grain] = histogram;
     });
     if (!scan(histograms, count)) continue;
     parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
       Histogram& position = histograms[begin / k_grain];
-      for (std::size_t i = begin; i < end; ++i) other[position[records[i].key >> shift & 0xff]++] = records[i];
+      for (std::size_t i = begin; i < end; ++i) to[position[from[i].key >> shift & 0xff]++] = from[i];
     });
-    records.swap(other);
+    std::swap(from, to);
   }
+  if (from.data() == records.data()) return;
+  parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
+    std::copy(from.begin() + static_cast<std::ptrdiff_t>(begin), from.begin() + static_cast<std::ptrdiff_t>(end),
+              records.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
 }
 
 }  // namespace gradslc

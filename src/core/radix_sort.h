@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/bulk_vector.h"
+#include <span>
 
 namespace gradslc {
 
@@ -13,6 +13,7 @@ struct SortRecord {
 
 /// Sorts by key, stable: least significant digit first, eight passes of eight bits, chunks of fixed size in parallel.
 /// Passes whose digit is the same everywhere are skipped.
-void radix_sort(BulkVector<SortRecord>& records);
+/// `scratch` is as long as `records` and is overwritten.
+void radix_sort(std::span<SortRecord> records, std::span<SortRecord> scratch);
 
 }  // namespace gradslc

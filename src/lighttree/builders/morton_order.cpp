@@ -1,12 +1,13 @@
 #include "lighttree/builders/morton_order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <cstring>
 #include <span>
 
 #include "core/bounds.h"
 #include "core/parallel.h"
-#include "core/radix_sort.h"
 
 namespace gradslc {
 namespace {
@@ -61,23 +62,28 @@ Bounds3 box_of(std::span<const Vpl> vpls) {
       .box;
 }
 
-std::span<Vpl> sort_in_morton_order(BulkVector<Vpl>& vpls) {
+void sort_in_morton_order(std::span<Vpl> vpls, std::span<std::byte> scratch) {
+  const std::size_t count = vpls.size();
+  assert(scratch.size() >= count * k_morton_bytes);
+  // Records first; behind them their copy while they are sorted, the sorted VPLs afterwards.
+  const std::span records(reinterpret_cast<SortRecord*>(scratch.data()), count);
+  std::byte* const behind = scratch.data() + records.size_bytes();
   const MortonCode code(box_of(vpls));
-  BulkVector<SortRecord> records(vpls.size());
-  parallel_for(vpls.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) records[i] = {code(vpls[i].position), i};
   });
-  radix_sort(records);
+  radix_sort(records, {reinterpret_cast<SortRecord*>(behind), count});
   constexpr std::size_t k_ahead = 24;  // enough reads under way to hide the memory's latency
-  BulkVector<Vpl> sorted(vpls.size());
-  parallel_for(vpls.size(), k_grain, [&](std::size_t begin, std::size_t end) {
+  const std::span sorted(reinterpret_cast<Vpl*>(behind), count);
+  parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i + k_ahead < end) __builtin_prefetch(&vpls[records[i + k_ahead].value]);
       sorted[i] = vpls[records[i].value];
     }
   });
-  vpls.swap(sorted);
-  return vpls;
+  parallel_for(count, k_grain, [&](std::size_t begin, std::size_t end) {
+    std::memcpy(&vpls[begin], &sorted[begin], (end - begin) * sizeof(Vpl));
+  });
 }
 
 }  // namespace gradslc

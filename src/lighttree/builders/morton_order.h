@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "core/bounds.h"
+#include "core/radix_sort.h"
 #include "vpl/vpl.h"
 
 namespace gradslc {
@@ -22,9 +24,10 @@ class MortonCode {
 /// The box of VPLs' positions, on all threads.
 Bounds3 box_of(std::span<const Vpl> vpls);
 
-/// Sorts VPLs by the Morton codes of their positions within their common box; equal ones keep their order. Returns
-/// them. At its peak needs k_morton_bytes more for a VPL.
-std::span<Vpl> sort_in_morton_order(BulkVector<Vpl>& vpls);
-constexpr double k_morton_bytes = sizeof(Vpl) + 16;
+/// Sorts VPLs by the Morton codes of their positions within their common box; equal ones keep their order. `scratch` is
+/// aligned to 16 bytes, has k_morton_bytes for each VPL, and is overwritten: memory that is needed later anyway can be
+/// lent, since fresh pages cost more time than the sort.
+void sort_in_morton_order(std::span<Vpl> vpls, std::span<std::byte> scratch);
+constexpr std::size_t k_morton_bytes = sizeof(SortRecord) + sizeof(Vpl);
 
 }  // namespace gradslc

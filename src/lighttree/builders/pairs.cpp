@@ -28,7 +28,7 @@ double pairs_bytes(const VplCounts& counts) {
 }
 
 double pairs_peak_bytes(const VplCounts& counts) {
-  return std::max(pairs_bytes(counts), counts.bytes() + counts.vpls * k_morton_bytes);
+  return pairs_bytes(counts);  // the sort borrows the nodes' memory
 }
 
 LightTree build_pairs(VplSet set) {
@@ -36,12 +36,13 @@ LightTree build_pairs(VplSet set) {
   tree.set = std::move(set);
   const std::size_t vpls = tree.set.vpls.size();
   if (vpls == 0) return tree;
-  sort_in_morton_order(tree.set.vpls);
-
   // Eight neighbours make a node, level by level: pairs of pairs of pairs. The root is first in memory, each level
   // after the one above it.
   const std::vector<std::size_t> sizes = level_sizes(vpls);
   std::size_t first = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+  // The nodes' memory serves the sort before they are filled. They are 64 bytes a VPL, up to rounding.
+  resize_nodes(tree, std::max(first, (vpls * k_morton_bytes + sizeof(LightNode) - 1) / sizeof(LightNode)));
+  sort_in_morton_order(tree.set.vpls, std::as_writable_bytes(std::span(tree.nodes)));
   resize_nodes(tree, first);
   first -= sizes.front();
   parallel_for(sizes.front(), k_grain, [&](std::size_t begin, std::size_t end) {

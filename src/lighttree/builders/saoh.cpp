@@ -105,14 +105,19 @@ double saoh_bytes(const VplCounts& counts) {
 }
 
 double saoh_peak_bytes(const VplCounts& counts) {
-  return std::max(saoh_bytes(counts) + counts.vpls * k_topology_bytes, counts.bytes() + counts.vpls * k_morton_bytes);
+  return std::max(saoh_bytes(counts) + counts.vpls * k_topology_bytes,
+                  counts.bytes() + counts.vpls * static_cast<double>(k_morton_bytes));
 }
 
 LightTree build_saoh(VplSet set) {
   LightTree tree;
   tree.set = std::move(set);
-  const std::span<Vpl> vpls = sort_in_morton_order(tree.set.vpls);
+  const std::span<Vpl> vpls = tree.set.vpls;
   if (vpls.empty()) return tree;
+  {
+    BulkVector<std::byte> scratch(vpls.size() * k_morton_bytes);
+    sort_in_morton_order(vpls, scratch);
+  }
 
   const MortonCode code(box_of(vpls));
   std::vector<std::vector<Run>> chunks((vpls.size() + k_chunk - 1) / k_chunk);

@@ -102,7 +102,7 @@ void SaohSplitter::split(std::span<const SplitItem> items, Topology& topology) {
     while (used < ranges.size()) {
       std::size_t costliest = used;
       for (std::size_t i = 0; i < used; ++i)
-        if (ranges[i].count() > leaf_size_ && (costliest == used || ranges[i].cost > ranges[costliest].cost))
+        if (ranges[i].count() > leaf_size_ && (costliest == used || ranges[costliest].is_below(ranges[i])))
           costliest = i;
       if (costliest == used) break;
       const Range parent = ranges[costliest];

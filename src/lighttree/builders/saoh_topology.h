@@ -50,6 +50,8 @@ class SaohSplitter {
     std::uint32_t begin, end;
     float cost;
     std::uint32_t count() const { return end - begin; }
+    /// By cost; among equals, as where all is black, by count.
+    bool is_below(const Range& o) const { return cost != o.cost ? cost < o.cost : count() < o.count(); }
   };
   struct Plane {
     int axis = -1;

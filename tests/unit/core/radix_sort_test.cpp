@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "support/random.h"
 
@@ -12,11 +13,11 @@ namespace {
 TEST(RadixSort, EqualsAStableSort) {
   TestRandom random(1);
   for (const std::size_t count : {0u, 1u, 2u, 1000u, 200000u}) {
-    BulkVector<SortRecord> records(count);
+    std::vector<SortRecord> records(count), scratch(count);
     for (std::size_t i = 0; i < count; ++i) records[i] = {random.bits() >> (random.below(4) * 16), i};
     auto expected = records;
     std::stable_sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
-    radix_sort(records);
+    radix_sort(records, scratch);
     EXPECT_EQ(records, expected) << count;
   }
 }
