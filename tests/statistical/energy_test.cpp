@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct EnergyScene {
     return root / name / file;
   }
 };
+
+void PrintTo(const EnergyScene& scene, std::ostream* stream) { *stream << scene.label(); }
 
 /// Lobes sharper than that are followed by paths. At the default of 0.1, descent meets rough metals' peaks so rarely
 /// that the scatter of 24 runs does not show it: a t-test would raise false alarms (glossy boxes are tested at 0.1).
