@@ -25,6 +25,7 @@ double rounded_down(double count) {
 std::vector<PlannedRun> plan_memory(const std::vector<MethodPlan>& methods, const std::string& scene_name,
                                     const Scene& scene, const RenderSettings& settings, const Makers& makers) {
   std::vector<PlannedRun> runs;
+  runs.reserve(runs.size() + methods.size());
   for (const MethodPlan& method : methods)
     runs.push_back({scene_name, method.name, makers.integrator(method)->plan_memory(scene, settings)});
   return runs;

@@ -20,7 +20,7 @@ void free_bulk(void* memory) noexcept;
 template <class T>
 class BulkAllocator {
  public:
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): what allocators must call it
   BulkAllocator() = default;
   template <class U>
   BulkAllocator(const BulkAllocator<U>&) {}
