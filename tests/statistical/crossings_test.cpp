@@ -7,8 +7,8 @@
 
 #include <cmath>
 
+#include "expect_unbiased.h"
 #include "scene/loaders/loader.h"
-#include "support/render/method.h"
 #include "support/render/scenes.h"
 
 namespace gradslc {
@@ -16,8 +16,6 @@ namespace {
 
 constexpr double k_false_alarm = 0.001;  // of one TEST
 constexpr Resolution k_resolution{32, 32};
-constexpr BlockOptions k_options{.runs = 32, .passes = 4, .block = 8, .seed = 5};
-constexpr BlockOptions k_path_tracing_options{.runs = 32, .passes = 32, .block = 8, .seed = 6};
 const Method k_path_tracing{"spt", "spt", {}};
 constexpr Components k_indirect{.emission = false, .direct = false};
 
@@ -31,6 +29,7 @@ const std::vector<Method>& methods() {
       {"vpl", "vpl", {{"vpl/light_paths", 200.0}, {"selection", "power"}, {"samples", 20.0}}},
       {"slc", "slc", {{"vpl/light_paths", 500.0}}},
       {"slc, small bound", "slc", {{"vpl/light_paths", 300.0}, {"vpl/bound", 0.3}, {"cut_size", 4.0}}},
+      {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 500.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 500.0}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 500.0}, {"shift", "random_replay"}}},
   };
@@ -81,7 +80,7 @@ TEST(Crossings, CountAsEdgesAndTakeTheirShareOnce) {
       {false, 3, k_indirect, one, 1},
   };
   for (const Case& c : cases)
-    for (const Method& method : {k_path_tracing, methods()[1], methods()[3]}) {
+    for (const Method& method : {k_path_tracing, methods()[1], methods()[4]}) {
       const std::string label =
           fmt::format("{}, camera {}, depth {}", method.label, c.camera_outside ? "outside" : "inside", c.max_depth);
       const auto moments = block_moments(method, gauze_tent(c.camera_outside, c.inner_albedo),
@@ -99,35 +98,17 @@ TEST(Crossings, CountAsEdgesAndTakeTheirShareOnce) {
     }
 }
 
-/// Compares methods with path tracing.
-void expect_unbiased(const Scene& scene, const RenderSettings& settings) {
-  constexpr Quantity k_compared[] = {Quantity::image,    Quantity::direct, Quantity::vpl_and_compensation,
-                                     Quantity::specular, Quantity::prefix, Quantity::dx,
-                                     Quantity::dy};
-  const BlockMoments reference = block_moments(k_path_tracing, scene, settings, k_path_tracing_options);
-  const std::size_t tests = methods().size() * std::size(k_compared) * reference.blocks.at(Quantity::image).size();
-  for (const Method& method : methods()) {
-    const BlockMoments moments = block_moments(method, scene, settings, k_options);
-    for (const Quantity quantity : k_compared) {
-      const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
-      EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
-          << fmt::format("{}, {}: block {} has {} where spt has {}, p = {:.2g}", method.label, to_string(quantity),
-                         c.block, c.mean_a, c.mean_b, c.p_value);
-    }
-  }
-}
-
-TEST(Crossings, BehindAPane) { expect_unbiased(partitioned_box(k_resolution, k_pane), {.max_depth = 6}); }
+TEST(Crossings, BehindAPane) { expect_unbiased(partitioned_box(k_resolution, k_pane), {.max_depth = 6}, methods()); }
 TEST(Crossings, BehindAPaneIndirect) {
-  expect_unbiased(partitioned_box(k_resolution, k_pane), {.max_depth = 5, .components = k_indirect});
+  expect_unbiased(partitioned_box(k_resolution, k_pane), {.max_depth = 5, .components = k_indirect}, methods());
 }
-TEST(Crossings, BehindGauze) { expect_unbiased(partitioned_box(k_resolution, k_gauze), {.max_depth = 6}); }
+TEST(Crossings, BehindGauze) { expect_unbiased(partitioned_box(k_resolution, k_gauze), {.max_depth = 6}, methods()); }
 TEST(Crossings, BehindGauzeShallowestIndirect) {
-  expect_unbiased(partitioned_box(k_resolution, k_gauze), {.max_depth = 3, .components = k_indirect});
+  expect_unbiased(partitioned_box(k_resolution, k_gauze), {.max_depth = 3, .components = k_indirect}, methods());
 }
 TEST(Crossings, BehindGauzeDirect) {
   expect_unbiased(partitioned_box(k_resolution, k_gauze),
-                  {.max_depth = 3, .components = {.emission = true, .direct = true, .indirect = false}});
+                  {.max_depth = 3, .components = {.emission = true, .direct = true, .indirect = false}}, methods());
 }
 
 // Index-matched glass transmits straight, too, but is a delta lobe: shadow rays stop at it, and paths find what is

@@ -6,14 +6,13 @@
 
 #include <filesystem>
 
+#include "expect_unbiased.h"
 #include "scene/loaders/loader.h"
-#include "support/render/method.h"
 #include "support/render/scenes.h"
 
 namespace gradslc {
 namespace {
 
-constexpr double k_false_alarm = 0.001;  // of one TEST
 constexpr Resolution k_resolution{32, 32};
 constexpr BlockOptions k_options{.runs = 32, .passes = 4, .block = 8, .seed = 5};
 constexpr BlockOptions k_reference_options{.runs = 32, .passes = 32, .block = 8, .seed = 6};
@@ -33,26 +32,6 @@ const std::vector<Method>& lightcut_methods() {
       {"slc, cuts by error", "slc", {{"vpl/light_paths", 300.0}, {"cut_size", 30.0}, {"cut_error", 0.2}}},
   };
   return k_methods;
-}
-
-constexpr Quantity k_compared[] = {Quantity::image,    Quantity::direct, Quantity::vpl_and_compensation,
-                                   Quantity::specular, Quantity::prefix, Quantity::dx,
-                                   Quantity::dy};
-
-/// Compares methods with spt on a scene.
-void expect_unbiased(const Scene& scene, const RenderSettings& settings, const std::vector<Method>& methods) {
-  const BlockMoments reference = block_moments({"spt", "spt", {}}, scene, settings, k_reference_options);
-  const std::size_t tests = methods.size() * std::size(k_compared) * reference.blocks.at(Quantity::image).size();
-  for (const Method& method : methods) {
-    BlockMoments moments = block_moments(method, scene, settings, k_options);
-    for (const Quantity quantity : k_compared) {
-      // spt writes vpl and compensation as one.
-      const Comparison c = compare_blocks(moments.blocks.at(quantity), reference.blocks.at(quantity));
-      EXPECT_GT(c.p_value, sidak(k_false_alarm, tests))
-          << fmt::format("{}, {}: block {} has {} where spt has {}, p = {:.2g}", method.label, to_string(quantity),
-                         c.block, c.mean_a, c.mean_b, c.p_value);
-    }
-  }
 }
 
 TEST(Unbiased, DiffuseBoxAllLight) { expect_unbiased(test_box(k_resolution), {.max_depth = 5}, lightcut_methods()); }
