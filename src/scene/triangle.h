@@ -51,7 +51,7 @@ inline TrianglePosition triangle_position(const Triangle& triangle, float b1, fl
   const float rounding = dot(abs(as_vec(shape.normal)), abs(p));
   const float error = unit_roundoff * (2 * rounding + plane_roundings * shape.extent);
 
-  const auto inset = [&](int corner) { return std::min(error * shape.height_inverse[corner], 1.0f / 3); };
+  const auto inset = [&](int corner) { return std::min(error * triangle.shape.height_inverse[corner], 1.0f / 3); };
   const float inset1 = inset(1), inset2 = inset(2);
   const float kept = 1 - inset(0) - inset1 - inset2;
   const double v1 = inset1 + kept * w1, v2 = inset2 + kept * w2;
