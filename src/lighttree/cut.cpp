@@ -51,7 +51,7 @@ class Refinement {
   SplitsLater splits_later() const { return {splitter_.tree()}; }
 
   void push(const CutParts& parts) {
-    for (const CutEntry& part : parts.all()) {
+    for (const CutEntry& part : parts) {
       if (std::isfinite(part.bound)) finite_bounds_ += static_cast<double>(part.bound);
       entries_.push_back(part);
       std::push_heap(entries_.begin(), entries_.end(), splits_later());

@@ -23,7 +23,8 @@ bool is_single_vpl(const LightTree& tree, const CutEntry& entry);
 struct CutParts {
   std::array<CutEntry, 2> parts;
   std::size_t count = 0;
-  std::span<const CutEntry> all() const { return std::span(parts).first(count); }
+  const CutEntry* begin() const { return parts.data(); }
+  const CutEntry* end() const { return parts.data() + count; }
 };
 
 /// Makes the entries of cuts for some receivers. Appends to `evaluated`, which entries refer to.

@@ -18,7 +18,7 @@ class Refinement {
              EstimatedCut& cut)
       : representatives_(representatives), contribution_(contribution), splitter_(splitter), cut_(cut) {
     cut_.clusters.clear(), cut_.evaluated.clear(), cut_.representatives = 0;
-    for (const CutEntry& part : splitter_.root().all()) push(part, nullptr);
+    for (const CutEntry& part : splitter_.root()) push(part, nullptr);
   }
 
   bool is_within(float error_ratio) const {
@@ -31,7 +31,7 @@ class Refinement {
     std::pop_heap(cut_.clusters.begin(), cut_.clusters.end(), splits_later);
     cut_.clusters.pop_back();
     total_ -= static_cast<double>(luminance(widest.estimate));
-    for (const CutEntry& part : splitter_.split(widest.entry).all()) push(part, &widest);
+    for (const CutEntry& part : splitter_.split(widest.entry)) push(part, &widest);
   }
 
  private:

@@ -53,7 +53,7 @@ TEST(Representatives, LieInTheirClusterStandForItsFluxAndStayWithOnePart) {
     std::vector<ChildWeights> evaluated;
     ClusterSplitter splitter(tree, receivers, 1, evaluated);
     std::vector<CutEntry> stack;
-    for (const CutEntry& entry : splitter.root().all()) stack.push_back(entry);
+    for (const CutEntry& entry : splitter.root()) stack.push_back(entry);
     std::size_t splits = 0;
     while (!stack.empty()) {
       const CutEntry entry = stack.back();
@@ -68,7 +68,7 @@ TEST(Representatives, LieInTheirClusterStandForItsFluxAndStayWithOnePart) {
       const CutParts parts = splitter.split(entry);
       bool holder_is_dark = true;  // parts that light no receiver are left out
       std::size_t keep = 0;
-      for (const CutEntry& part : parts.all()) {
+      for (const CutEntry& part : parts) {
         const std::vector<std::uint32_t> part_below = vpls_below(tree, part.node, part.lanes);
         if (std::count(part_below.begin(), part_below.end(), whole.vpl) == 1) holder_is_dark = false;
         keep += representatives.of(part.node, part.lanes).vpl == whole.vpl ? 1 : 0;

@@ -164,14 +164,14 @@ class Inheritance : public testing::Test {
       while (std::find(below.begin(), below.end(), vpl) == below.end());
       return vpl;
     };
-    for (const CutEntry& root : splitter.root().all()) cut.entries.push_back(root), samples.push_back(draw(root));
+    for (const CutEntry& root : splitter.root()) cut.entries.push_back(root), samples.push_back(draw(root));
     while (cut.entries.size() < size) {
       const std::size_t widest = widest_entry(cut);
       const CutEntry parent = cut.entries[widest];
       const std::uint32_t inherited = samples[widest];
       cut.entries.erase(cut.entries.begin() + static_cast<std::ptrdiff_t>(widest));
       samples.erase(samples.begin() + static_cast<std::ptrdiff_t>(widest));
-      for (const CutEntry& part : splitter.split(parent).all()) {
+      for (const CutEntry& part : splitter.split(parent)) {
         const std::vector<std::uint32_t> below = vpls_below(lit_.tree, part.node, part.lanes);
         const bool keeps = std::find(below.begin(), below.end(), inherited) != below.end();
         cut.entries.push_back(part), samples.push_back(keeps ? inherited : draw(part));
@@ -248,7 +248,7 @@ TEST_F(Inheritance, LawsNestBetweenLevelsAndNotBetweenHalvesOfANode) {
   std::vector<ChildWeights> evaluated;
   ClusterSplitter splitter(lit_.tree, lit_.receivers(), k_infinity, evaluated);
   double largest_difference = 0;
-  for (const CutEntry& half : splitter.split(splitter.root().parts[0]).all()) {
+  for (const CutEntry& half : splitter.split(splitter.root().parts[0])) {
     const std::vector<double> stated = law(half, EntryLaw::descent), inherited = law(half, EntryLaw::conditional);
     double difference = 0;  // total variation
     for (std::size_t i = 0; i < stated.size(); ++i) difference += 0.5 * std::abs(stated[i] - inherited[i]);

@@ -58,7 +58,8 @@ TEST(RoughPlastic, IsPlasticWhereItIsNearlySmooth) {
   const Texture grey(Rgb(0.2f, 0.5f, 0.8f));
   for (const bool nonlinear : {false, true}) {
     const Bsdf smooth = bsdf_of(make_plastic(1.5f, grey, nonlinear));
-    const Bsdf rough = bsdf_of(make_rough_plastic(MicrofacetType::ggx, 0.001f, 1.5f, grey, nonlinear));
+    const MaterialPtr material = make_rough_plastic(MicrofacetType::ggx, 0.001f, 1.5f, grey, nonlinear);
+    const Bsdf rough = bsdf_of(material);  // refers to its material's table
     const LobeSelection diffuse = k_all.only_connectable();
     TestRandom random(1);
     for (int i = 0; i < 100; ++i) {
@@ -95,7 +96,8 @@ TEST(Plastic, LosesNothingWhereItsBaseIsWhite) {
 
 TEST(RoughPlastic, LosesLittleWhereItsBaseIsWhite) {
   for (const auto& [alpha, least] : {std::pair{0.05f, 0.98f}, {0.2f, 0.93f}, {0.5f, 0.8f}}) {
-    const Bsdf plastic = bsdf_of(make_rough_plastic(MicrofacetType::ggx, alpha, 1.5f, Texture(Rgb(1)), true));
+    const MaterialPtr material = make_rough_plastic(MicrofacetType::ggx, alpha, 1.5f, Texture(Rgb(1)), true);
+    const Bsdf plastic = bsdf_of(material);
     for (const float c : {0.3f, 0.8f}) {
       const Vec3 known{std::sqrt(1 - c * c), 0, c};
       const double all =

@@ -159,7 +159,7 @@ TEST(RoughMaterials, TakeTheirDistributionAndRoughness) {
   EXPECT_THROW(make_plugin("roughconductor", properties), BadProperty);
   properties.reals["alpha_v"] = 0.5f;
   const MaterialPtr brushed = make_plugin("roughconductor", properties);
-  const auto& lobe = std::get<RoughConductor>(shade(*brushed, k_up).bsdf.entries().front().lobe);
+  const auto lobe = std::get<RoughConductor>(shade(*brushed, k_up).bsdf.entries().front().lobe);
   EXPECT_EQ(lobe.microfacet.alpha_u, 0.25f);
   EXPECT_EQ(lobe.microfacet.alpha_v, 0.5f);
   EXPECT_EQ(lobe.microfacet.type, MicrofacetType::beckmann);
