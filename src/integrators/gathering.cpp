@@ -49,7 +49,7 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   if (!looks_for_emitters && !goes_on) return;
 
   const auto index = static_cast<std::uint32_t>(x.edges);
-  const float u_lobe = context.random.get1(Use::compensation_lobe, index);
+  const float u_lobe = x.bsdf.chooses_lobes() ? context.random.get1(Use::compensation_lobe, index) : 0;
   const auto sample = x.bsdf.sample(x.wo, u_lobe, context.random.get2(Use::compensation, index), connectable);
   if (!sample) return;
   const Rgb f_x = x.bsdf.eval(x.wo, sample->direction, connectable);

@@ -164,7 +164,7 @@ bool scatter(PathContext& context, const PathVertex& vertex, int max_edges, cons
   add_next_event(context, vertex, lobes, max_edges, throughput, compensation, radiance);
 
   const auto index = static_cast<std::uint32_t>(vertex.edges);
-  const float u_lobe = context.random.get1(Use::lobe, index);
+  const float u_lobe = vertex.bsdf.chooses_lobes() ? context.random.get1(Use::lobe, index) : 0;
   const auto sample = vertex.bsdf.sample(vertex.wo, u_lobe, context.random.get2(Use::direction, index), lobes);
   if (!sample) return false;
   if (Throughput::k_by_lobes || compensation)

@@ -91,8 +91,19 @@ Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const
   return sum;
 }
 
+std::optional<BsdfSample> Bsdf::sample_only(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+                                            Transport transport) const {
+  const Entry& entry = entries_[0];
+  std::optional<BsdfSample> sample;
+  if (!lobes.includes(entry.roughness)) return sample;
+  sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_lobe, u, transport); });
+  if (sample) sample->weight *= entry.weight;
+  return sample;
+}
+
 std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                        Transport transport) const {
+  if (entries_.size() == 1) return sample_only(known, u_lobe, u, lobes, transport);
   const Choice choice(entries_, known, lobes);
   const auto [chosen, u_choice] = choice.choose(u_lobe);
   const auto sample_lobe = [&, u_choice = u_choice](const auto& lobe) {
@@ -122,6 +133,10 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const L
 }
 
 float Bsdf::pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const {
+  if (entries_.size() == 1) {
+    if (!lobes.includes(entries_[0].roughness)) return 0;
+    return unless_delta(entries_[0], 0.0f, [&](const auto& lobe) { return lobe.pdf_solid_angle(known, w); });
+  }
   const Choice choice(entries_, known, lobes);
   return choice.total == 0 ? 0 : choice.pdf_solid_angle(entries_, known, w);
 }

@@ -65,6 +65,10 @@ class Bsdf {
   /// f, 1/sr, without the cosine, as radiance is scattered from wi to wo; 0 for delta lobes.
   Rgb eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
   Split eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
+  /// Whether sample() uses `u_lobe`.
+  bool chooses_lobes() const {
+    return entries_.size() > 1 || (entries_.size() == 1 && !std::holds_alternative<Lambert>(entries_[0].lobe));
+  }
   /// A direction for a known one; nullopt when nothing can be sampled. `u_lobe` in [0,1) chooses among lobes.
   std::optional<BsdfSample> sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                    Transport transport = Transport::radiance) const;
@@ -96,6 +100,10 @@ class Bsdf {
   const auto& entries() const { return entries_; }
 
  private:
+  /// sample() where there is one lobe.
+  std::optional<BsdfSample> sample_only(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+                                        Transport transport) const;
+
   boost::container::static_vector<Entry, k_max_lobes> entries_;
   Rgb straight_transmittance_;
 };

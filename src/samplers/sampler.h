@@ -52,7 +52,7 @@ std::span<const SamplerEntry> sampler_registry();
 class SampleStream {
  public:
   SampleStream(SamplerKind kind, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
-      : key_(hash_combine(seed, stream)), sample_(sample), kind_(kind) {}
+      : key_(hash_combine(seed, stream)), sample_(sample), reversed_sample_(reverse_bits(sample)), kind_(kind) {}
 
   /// A stream of the same sample whose numbers are independent of this one's and of other branches'.
   SampleStream branch(std::uint32_t index) const {
@@ -78,18 +78,18 @@ class SampleStream {
   }
   std::uint32_t bits1(Use use, std::uint32_t index) const {
     const std::uint64_t key = named_key(use, index);
-    return kind_ == SamplerKind::sobol ? sobol_coordinate(key, sample_)
+    return kind_ == SamplerKind::sobol ? sobol_coordinate(key, reversed_sample_)
                                        : static_cast<std::uint32_t>(independent_bits(key, sample_) >> 32);
   }
   SobolPoint bits2(Use use, std::uint32_t index) const {
     const std::uint64_t key = named_key(use, index);
-    if (kind_ == SamplerKind::sobol) return sobol_point(key, sample_);
+    if (kind_ == SamplerKind::sobol) return sobol_point(key, reversed_sample_);
     const std::uint64_t bits = independent_bits(key, sample_);
     return {static_cast<std::uint32_t>(bits >> 32), static_cast<std::uint32_t>(bits)};
   }
 
   std::uint64_t key_;
-  std::uint32_t sample_;
+  std::uint32_t sample_, reversed_sample_;
   SamplerKind kind_;
 };
 

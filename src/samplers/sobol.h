@@ -46,15 +46,16 @@ struct SobolPoint {
   std::uint32_t x, y;  ///< coordinates in [0,1) times 2^32
 };
 
-/// The position in the sequence of sample number `sample`: aligned blocks of 2^k samples keep together, in another
-/// order.
-constexpr std::uint32_t sobol_shuffled_index(std::uint64_t key, std::uint32_t sample) {
-  return reverse_bits(laine_karras_permutation(reverse_bits(sample), key));
+/// The position in the sequence of a sample, whose number's bits come in reverse: aligned blocks of 2^k samples keep
+/// together, in another order.
+constexpr std::uint32_t sobol_shuffled_index(std::uint64_t key, std::uint32_t reversed_sample) {
+  return reverse_bits(laine_karras_permutation(reversed_sample, key));
 }
 
-/// Point number `sample`: any aligned block of 2^k samples has one point in each elementary interval of area 2^-k.
-constexpr SobolPoint sobol_point(std::uint64_t key, std::uint32_t sample) {
-  const std::uint32_t index = sobol_shuffled_index(key, sample);
+/// Point of a sample, as above: any aligned block of 2^k samples has one point in each elementary interval of area
+/// 2^-k.
+constexpr SobolPoint sobol_point(std::uint64_t key, std::uint32_t reversed_sample) {
+  const std::uint32_t index = sobol_shuffled_index(key, reversed_sample);
   const std::uint32_t x = laine_karras_permutation(index, mix64(key + k_golden_gamma));
   const std::uint32_t y = laine_karras_permutation(multiply_by_pascal_matrix(index), mix64(key + 2 * k_golden_gamma));
   const std::uint64_t both = reverse_bits(std::uint64_t{y} << 32 | x);
@@ -62,8 +63,9 @@ constexpr SobolPoint sobol_point(std::uint64_t key, std::uint32_t sample) {
 }
 
 /// Coordinate x of that point.
-constexpr std::uint32_t sobol_coordinate(std::uint64_t key, std::uint32_t sample) {
-  return reverse_bits(laine_karras_permutation(sobol_shuffled_index(key, sample), mix64(key + k_golden_gamma)));
+constexpr std::uint32_t sobol_coordinate(std::uint64_t key, std::uint32_t reversed_sample) {
+  const std::uint32_t index = sobol_shuffled_index(key, reversed_sample);
+  return reverse_bits(laine_karras_permutation(index, mix64(key + k_golden_gamma)));
 }
 
 }  // namespace gradslc

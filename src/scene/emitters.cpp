@@ -10,12 +10,11 @@ namespace {
 
 /// A density per area as one per solid angle: times distance^2 / cosine at the emitter, whose normal is `n`; 0 where it
 /// does not face the reference.
-float to_solid_angle(double pdf_area, Normal3 n, Vec3 to_reference) {
-  const double squared = length_squared(to_reference);
-  const double projected = dot(n, to_reference);  // distance times cosine
+float to_solid_angle(double pdf_area, Normal3 n, Vec3 to_reference, float distance) {
+  const float projected = dot(n, to_reference);  // distance times cosine
   if (!(projected > 0)) return 0;
-  const double pdf = pdf_area * squared * std::sqrt(squared) / projected;
-  return std::isfinite(pdf) ? static_cast<float>(pdf) : 0;
+  const auto pdf = static_cast<float>(pdf_area * static_cast<double>(distance * distance * (distance / projected)));
+  return pdf < k_infinity ? pdf : 0;
 }
 
 }  // namespace
@@ -76,12 +75,13 @@ std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& em
   const auto [position, error] = triangle_position(emitter.triangle, b.x, b.y);
   const Normal3 n = emitter.triangle.shape.normal;
   const Vec3 to_emitter = position - reference;
-  const float pdf = to_solid_angle(emitter.pdf_area, n, -to_emitter);
+  const float distance = length(to_emitter);
+  const float pdf = to_solid_angle(emitter.pdf_area, n, -to_emitter, distance);
   std::optional<DirectSample> sample;
   if (!(pdf > 0)) return sample;
   sample.emplace();
   sample->pdf_solid_angle = pdf;
-  sample->wi = normalize(to_emitter);
+  sample->wi = to_emitter / distance;
   sample->radiance = emitter.radiance;
   sample->position = offset_position(position, n, error, -to_emitter);
   return sample;
@@ -89,7 +89,9 @@ std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& em
 
 float Emitters::pdf_direct(Point3 reference, const SurfacePoint& hit) const {
   const EmissiveTriangle* emitter = find(hit);
-  return emitter ? to_solid_angle(emitter->pdf_area, emitter->triangle.shape.normal, reference - hit.position) : 0;
+  if (!emitter) return 0;
+  const Vec3 to_reference = reference - hit.position;
+  return to_solid_angle(emitter->pdf_area, emitter->triangle.shape.normal, to_reference, length(to_reference));
 }
 
 Rgb Emitters::radiance(const SurfacePoint& hit, Vec3 wo) const {

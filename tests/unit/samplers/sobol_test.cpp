@@ -95,9 +95,9 @@ TEST(Sobol, ShuffleKeepsAlignedBlocksTogether) {
     const std::uint64_t key = random.bits();
     std::set<std::uint32_t> images;
     for (std::uint32_t i = 0; i < 64; ++i) {
-      const std::uint32_t index = sobol_shuffled_index(key, 128 + i);
+      const std::uint32_t index = sobol_shuffled_index(key, reverse_bits(128 + i));
       images.insert(index & 63);
-      ASSERT_EQ(index >> 6, sobol_shuffled_index(key, 128) >> 6);
+      ASSERT_EQ(index >> 6, sobol_shuffled_index(key, reverse_bits(128u)) >> 6);
     }
     ASSERT_EQ(images.size(), 64u);
   }
