@@ -28,11 +28,11 @@ std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receive
   return chosen_;
 }
 
-Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree, std::span<const ChosenVpl> chosen,
-                  float bound) {
+VplLight gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree,
+                       std::span<const ChosenVpl> chosen, float bound) {
   const GatherPoint point{x, context.lobes};
   const VplView vpls{context.scene.materials(), tree.set};
-  Rgb sum;
+  VplLight light;
   for (const ChosenVpl& choice : chosen) {
     const Vpl& vpl = vpls[choice.vpl];
     if (!vpl_may_count(context, x, vpl)) continue;
@@ -40,9 +40,9 @@ Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tr
     if (is_black(contribution)) continue;
     const Rgb transmittance =
         connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
-    sum += contribution * transmittance * choice.inverse_probability;
+    light.from(vpl) += contribution * transmittance * choice.inverse_probability;
   }
-  return sum;
+  return light;
 }
 
 }  // namespace gradslc

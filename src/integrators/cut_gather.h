@@ -45,7 +45,7 @@ class CutSelector {
 };
 
 /// Light from the chosen VPLs at x, a shadow ray for each that contributes.
-Rgb gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree, std::span<const ChosenVpl> chosen,
-                  float bound);
+VplLight gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree,
+                       std::span<const ChosenVpl> chosen, float bound);
 
 }  // namespace gradslc

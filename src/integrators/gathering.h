@@ -12,7 +12,8 @@ struct GatherSettings {
   bool compensate = false;   ///< what bounding takes is brought back by the ray
   int max_bounces = 1;       ///< most vertices on the light's side
   bool scene_has_other_lobes = false;
-  float max_pi_f = 1;  ///< upper bound of pi f_c anywhere
+  float max_pi_f = 1;  ///< upper bound of pi f_c anywhere, emission included where it has VPLs
+  EmitterChoice next_event = EmitterChoice::all;  ///< at x; light from all others comes from VPLs on them
 };
 GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth);
 
@@ -23,10 +24,35 @@ inline bool vpl_may_count(const PathContext& context, const PathVertex& x, const
   return connection_may_count(context, connection_edges(x, y), context.settings.max_depth);
 }
 
+/// The vertices k of light paths whose VPLs may count at x; none where least > most.
+struct VertexRange {
+  int least, most;
+};
+inline VertexRange vertices_that_may_count(const PathContext& context, const PathVertex& x) {
+  const int max_depth = context.settings.max_depth, nearest = x.edges + 1;
+  VertexRange range{0, max_depth - nearest};
+  const auto counts = [&](int k) { return connection_may_count(context, nearest + k, max_depth); };
+  while (range.least <= range.most && !counts(range.least)) ++range.least;
+  while (range.least <= range.most && !counts(range.most)) --range.most;
+  return range;
+}
+
+/// Light from VPLs at x: of those on emitters, which is direct light, and of all others.
+struct VplLight {
+  Rgb direct, vpl;
+
+  Rgb& from(const Vpl& y) { return y.vertex == 0 ? direct : vpl; }
+  void collect(Rgb throughput, PartValues& radiance) const {
+    radiance[Part::direct] += throughput * direct;
+    radiance[Part::vpl] += throughput * vpl;
+  }
+};
+
 /// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the ray through
-/// f_c(x) that brings emitters (weighted against next-event estimation), f_s(y) with weight 1 and f_c(y) with what
-/// bounding has taken. `mean_rays` > 0 of these rays are sent on average: their number is rounded at random, and what
-/// they bring divided by the mean. Returns the luminance that they brought, all parts together.
+/// f_c(x) that brings emitters (weighted against next-event estimation, or with what bounding has taken from VPLs on
+/// them), f_s(y) with weight 1 and f_c(y) with what bounding has taken. `mean_rays` > 0 of these rays are sent on
+/// average: their number is rounded at random, and what they bring divided by the mean. Returns the luminance that they
+/// brought, all parts together.
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                           PartValues& radiance, float mean_rays = 1);
 

@@ -121,7 +121,7 @@ class GradientStochasticLightcuts final : public Integrator {
     if (!prefix.gather) return radiance;
     PathContext path = context(random);
     gather_without_vpls(path, prefix, gather_, radiance);
-    radiance[Part::vpl] += prefix.throughput * gather_chosen(path, *prefix.gather, tree, chosen, gather_.bound);
+    gather_chosen(path, *prefix.gather, tree, chosen, gather_.bound).collect(prefix.throughput, radiance);
     rays += path.rays;
     return radiance;
   }

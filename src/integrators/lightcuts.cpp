@@ -55,7 +55,7 @@ class Lightcuts final : public Integrator {
         PartValues radiance = prefix.radiance;
         if (prefix.gather) {
           gather_without_vpls(context, prefix, gather_, radiance);
-          radiance[Part::vpl] += prefix.throughput * gather_cut(context, *prefix.gather, tree, cut, cost);
+          gather_cut(context, *prefix.gather, tree, cut, cost).collect(prefix.throughput, radiance);
         }
         record(half, resolution.pixel(i), radiance);
         cost.rays += context.rays;
@@ -97,10 +97,11 @@ class Lightcuts final : public Integrator {
 
   /// Light from VPLs at x. A representative that the limit of depth leaves out brings 0 for its cluster, as often as
   /// such VPLs have their share of its flux: on average over representatives, a cluster's estimate is what counts of
-  /// it.
-  Rgb gather_cut(PathContext& context, const PathVertex& x, const LightTree& tree, EstimatedCut& cut,
-                 CutCost& cost) const {
-    if (x.edges + 2 > settings_.max_depth) return Rgb();  // not even the first vertex of a light path counts
+  /// it. So are the parts.
+  VplLight gather_cut(PathContext& context, const PathVertex& x, const LightTree& tree, EstimatedCut& cut,
+                      CutCost& cost) const {
+    const int nearest_vertex = source_.has_vpls_on_emitters() ? 0 : 1;
+    if (x.edges + 1 + nearest_vertex > settings_.max_depth) return {};
     const GatherPoint point{x, context.lobes};
     const VplView vpls{context.scene.materials(), tree.set};
     const auto contribution_of = [&](std::uint32_t index) {
@@ -116,7 +117,8 @@ class Lightcuts final : public Integrator {
     ++cost.gathers;
     cost.clusters += cut.clusters.size(), cost.representatives += cut.representatives;
     cost.node_evaluations += cut.evaluated.size();
-    return cut.total();
+    const auto on_emitter = [&](std::uint32_t vpl) { return vpls[vpl].vertex == 0; };
+    return {.direct = cut.total(on_emitter), .vpl = cut.total(std::not_fn(on_emitter))};
   }
 
   ErrorLimits limits_;

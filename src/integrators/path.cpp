@@ -10,11 +10,11 @@ PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings
   return {context, film_position(pixel, context.random.get2(Use::pixel))};
 }
 
-std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex) {
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex, EmitterChoice choice) {
   const auto index = static_cast<std::uint32_t>(vertex.edges);
   const double u_emitter = context.random.get1_double(Use::emitter, index);
   const Vec2 u_point = context.random.get2(Use::emitter_point, index);
-  return context.scene.emitters().sample_direct(vertex.point.position, u_emitter, u_point);
+  return context.scene.emitters().sample_direct(vertex.point.position, u_emitter, u_point, choice);
 }
 
 Ray shadow_ray(const SurfacePoint& from, const DirectSample& light) {
@@ -57,10 +57,11 @@ Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 w
   return radiance * power_heuristic(origin.pdf_solid_angle, emitters.pdf_direct(origin.position, hit));
 }
 
-Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin) {
+Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin, EmitterChoice choice) {
   Rgb sum;
-  for (const auto& [light, probability] : context.scene.emitters().environments()) {
+  for (const auto& [light, among_all, among_lights] : context.scene.emitters().environments()) {
     const Rgb radiance = light->radiance(direction);
+    const float probability = choice == EmitterChoice::all ? among_all : among_lights;
     const float mis = origin.emission_only_by_hit
                           ? 1
                           : power_heuristic(origin.pdf_solid_angle, probability * light->pdf_direct(direction));

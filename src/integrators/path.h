@@ -72,7 +72,8 @@ inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, 
 
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
 /// not tested.
-std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex);
+std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex,
+                                           EmitterChoice choice = EmitterChoice::all);
 /// The shadow ray of that choice.
 Ray shadow_ray(const SurfacePoint& from, const DirectSample& light);
 
@@ -100,9 +101,10 @@ LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, con
 /// the same lobes: adds to `radiance` what counts of paths with at most `max_edges` edges.
 template <class Throughput>
 void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes, int max_edges,
-                    const Throughput& throughput, const Compensation* compensation, PartValues& radiance) {
+                    const Throughput& throughput, const Compensation* compensation, PartValues& radiance,
+                    EmitterChoice choice = EmitterChoice::all) {
   if (!connection_may_count(context, vertex.edges + 1, max_edges)) return;
-  const auto light = choose_emitter(context, vertex);
+  const auto light = choose_emitter(context, vertex, choice);
   if (!light) return;
   const Vec3 wi = vertex.to_local(light->wi);
   const float pdf = light->pdf_solid_angle;
@@ -118,24 +120,33 @@ void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSe
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
 Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin);
-/// The same for a ray that leaves the scene in `direction`.
-Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin);
+/// The same for a ray that leaves the scene in `direction`. `choice`: of next-event estimation at the origin.
+Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin,
+                         EmitterChoice choice = EmitterChoice::all);
 
-/// Traces a path's next edge, counts it in `edges` and adds what an emitter at its end brings. The surface there;
-/// nullopt where the path ends, at the latest with `max_edges` edges.
-template <class Throughput>
-std::optional<SurfacePoint> next_hit(PathContext& context, const Ray& ray, const RayOrigin& origin, int& edges,
-                                     int max_edges, const Throughput& throughput, PartValues& radiance) {
+/// Traces a path's next edge, counts it in `edges` and adds what an emitter at its end brings: `emission`(hit), of an
+/// optional SurfacePoint, weighted. The surface there; nullopt where the path ends, at the latest with `max_edges`
+/// edges.
+template <class Throughput, class Emission>
+std::optional<SurfacePoint> trace_edge(PathContext& context, const Ray& ray, const Emission& emission, int& edges,
+                                       int max_edges, const Throughput& throughput, PartValues& radiance) {
   if (edges >= max_edges) return std::nullopt;
   ++context.rays;
   ++edges;
   auto hit = context.scene.intersect(ray);
-  if (context.settings.components.includes(edges))
-    throughput.collect(hit ? emitted_radiance(context, *hit, -ray.direction, origin)
-                           : environment_radiance(context, ray.direction, origin),
-                       radiance);
+  if (context.settings.components.includes(edges)) throughput.collect(emission(hit), radiance);
   if (edges == max_edges) hit.reset();
   return hit;
+}
+/// The same, emission weighted against next-event estimation among all emitters.
+template <class Throughput>
+std::optional<SurfacePoint> next_hit(PathContext& context, const Ray& ray, const RayOrigin& origin, int& edges,
+                                     int max_edges, const Throughput& throughput, PartValues& radiance) {
+  const auto emission = [&](const std::optional<SurfacePoint>& hit) {
+    return hit ? emitted_radiance(context, *hit, -ray.direction, origin)
+               : environment_radiance(context, ray.direction, origin);
+  };
+  return trace_edge(context, ray, emission, edges, max_edges, throughput, radiance);
 }
 
 /// Draws whether a path passes straight through the surface that it has come to (Bsdf::pass_probability()): then its

@@ -86,8 +86,7 @@ class StochasticLightcuts final : public Integrator {
           gather_without_vpls(context, prefix, gather_, radiance);
           const Receiver receiver = make_receiver({*prefix.gather, context.lobes});
           const auto chosen = selector.select({&receiver, 1}, context.random);
-          radiance[Part::vpl] +=
-              prefix.throughput * gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound);
+          gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound).collect(prefix.throughput, radiance);
         }
         record(half, resolution.pixel(i), radiance);
         rays += context.rays;
@@ -163,7 +162,7 @@ class StochasticLightcuts final : public Integrator {
           if (prefix.gather) {
             brought = gather_without_vpls(context, prefix, gather_, radiance, mean_rays(pixel));
             const double u = context.random.get1_double(Use::candidate_choice);
-            radiance[Part::vpl] += prefix.throughput * gatherer.gather(context, *prefix.gather, u);
+            gatherer.gather(context, *prefix.gather, u).collect(prefix.throughput, radiance);
           }
           record(half, pixel, radiance);
           note(pixel, luminance(radiance.total()), brought);

@@ -13,15 +13,14 @@ void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   cost_.candidates += drawn_.size();
 }
 
-Rgb TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
+VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
   const GatherPoint point{x, context.lobes};
-  const int most_k = context.settings.max_depth - x.edges - 1;
-  const int least_k = context.settings.components.indirect ? 1 : most_k + 1;
+  const auto [least_k, most_k] = vertices_that_may_count(context, x);
   const CandidateReceiver receiver = make_candidate_receiver(point, least_k, most_k);
   candidates_.evaluate(receiver, bound_);
   cost_.evaluations += candidates_.size();
   candidates_.choose(parameters_.samples, u, choice_);
-  Rgb sum;
+  VplLight light;
   for (const CandidateDraw& draw : choice_) {
     const Vpl& vpl = vpls_[candidates_.vpl(draw.candidate)];
     const Rgb contribution =
@@ -32,9 +31,10 @@ Rgb TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
     const Rgb transmittance =
         connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
     if (is_black(transmittance)) continue;
-    sum += contribution * transmittance * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
+    light.from(vpl) +=
+        contribution * transmittance * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
   }
-  return sum;
+  return light;
 }
 
 }  // namespace gradslc

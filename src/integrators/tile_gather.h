@@ -41,7 +41,7 @@ class TileGatherer {
   /// Draws the candidates for all gather points of a tile, `u` in [0,1).
   void begin_tile(std::span<const Receiver> receivers, double u);
   /// Light from VPLs at x, which must be one of the tile's; `u` in [0,1).
-  Rgb gather(PathContext& context, const PathVertex& x, double u);
+  VplLight gather(PathContext& context, const PathVertex& x, double u);
   const TileCost& cost() const { return cost_; }
 
  private:

@@ -66,21 +66,21 @@ class VplSampler final : public Integrator {
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);
-      radiance[Part::vpl] += prefix.throughput * gather_vpls(context, *prefix.gather, set);
+      gather_vpls(context, *prefix.gather, set).collect(prefix.throughput, radiance);
     }
     rays += context.rays;
     return radiance;
   }
 
-  Rgb gather_vpls(PathContext& context, const PathVertex& x, const VplSet& set) const {
-    Rgb sum;
+  VplLight gather_vpls(PathContext& context, const PathVertex& x, const VplSet& set) const {
+    VplLight light;
     const std::span<const Vpl> vpls = set.vpls;
-    if (vpls.empty()) return sum;
+    if (vpls.empty()) return light;
     if (selection_ == Selection::all) {
-      for (const Vpl& vpl : vpls) sum += connect(context, x, set, vpl);
-      return sum;
+      for (const Vpl& vpl : vpls) light.from(vpl) += connect(context, x, set, vpl);
+      return light;
     }
-    if (selection_ == Selection::power && by_power_.total() == 0) return sum;
+    if (selection_ == Selection::power && by_power_.total() == 0) return light;
     for (int s = 0; s < samples_; ++s) {
       const double u = context.random.get1_double(Use::vpl_choice, static_cast<std::uint32_t>(s));
       std::size_t chosen = static_cast<std::size_t>(u * static_cast<double>(vpls.size()));
@@ -89,9 +89,10 @@ class VplSampler final : public Integrator {
         const auto drawn = by_power_.sample(u);
         chosen = drawn.index, probability = drawn.probability;
       }
-      sum += connect(context, x, set, vpls[chosen]) * static_cast<float>(1 / (probability * samples_));
+      const Vpl& vpl = vpls[chosen];
+      light.from(vpl) += connect(context, x, set, vpl) * static_cast<float>(1 / (probability * samples_));
     }
-    return sum;
+    return light;
   }
 
   Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, const Vpl& vpl) const {

@@ -26,21 +26,23 @@ class VplSource {
 
   const VplParameters& parameters() const { return parameters_; }
   float bound() const { return bound_; }
+  bool has_vpls_on_emitters() const { return has_vpls_on_emitters_; }
   std::uint64_t sets() const { return sets_; }  ///< made so far: another number, another set
   IntegratorTraits traits() const;
   std::uint64_t rays() const { return rays_; }
   void append_counters(std::vector<IntegratorStatistics::Counter>& counters) const;
 
  private:
-  LightTracingSettings tracing_settings(const RenderSettings& settings, SeedPurpose purpose, int half,
-                                        std::uint32_t set) const;
-  VplSet trace(SeedPurpose purpose, int half, std::uint32_t set);
+  LightTracingSettings tracing_settings(const Scene& scene, const RenderSettings& settings, SeedPurpose purpose,
+                                        int half, std::uint32_t set) const;
+  VplSet trace(const LightTracingSettings& tracing);
 
   Structure structure_;
   VplParameters parameters_;
   std::size_t builder_ = 0;
   const Scene* scene_ = nullptr;
   RenderSettings settings_;
+  bool has_vpls_on_emitters_ = false;
   float bound_ = 0;
   LightTree tree_;
   bool has_set_ = false;

@@ -62,8 +62,13 @@ class Refinement {
 }  // namespace
 
 Rgb EstimatedCut::total() const {
+  return total([](std::uint32_t) { return true; });
+}
+
+Rgb EstimatedCut::total(const std::function<bool(std::uint32_t vpl)>& selects) const {
   double sum[3] = {};
   for (const EstimatedCluster& cluster : clusters) {
+    if (!selects(cluster.representative.vpl)) continue;
     for (int channel = 0; channel < 3; ++channel) sum[channel] += static_cast<double>(cluster.estimate[channel]);
   }
   return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2])};

@@ -24,6 +24,8 @@ struct EstimatedCut {
   std::uint64_t representatives = 0;  ///< how many were asked for their contribution
 
   Rgb total() const;
+  /// Of the clusters whose representatives are selected.
+  Rgb total(const std::function<bool(std::uint32_t vpl)>& selects) const;
 };
 
 /// When lightcuts' cut is fine enough.

@@ -56,17 +56,23 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
   for (std::size_t i = 0; i < triangles_.size(); ++i)
     triangles_[i].pdf_area = by_power_.probability(i) / triangles_[i].area;
   power_ = {static_cast<float>(power[0]), static_cast<float>(power[1]), static_cast<float>(power[2])};
+  weights.erase(weights.begin(), weights.end() - static_cast<std::ptrdiff_t>(lights_.size()));
+  lights_by_power_ = DiscreteDistribution(weights);
   for (std::size_t i = 0; i < lights_.size(); ++i)
     if (lights_[i]->is_environment())
-      environments_.push_back({lights_[i], static_cast<float>(by_power_.probability(triangles_.size() + i))});
+      environments_.push_back({lights_[i], static_cast<float>(by_power_.probability(triangles_.size() + i)),
+                               static_cast<float>(lights_by_power_.probability(i))});
 }
 
-std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_select, Vec2 u) const {
-  if (empty()) return std::nullopt;
-  const DiscreteDistribution::Sample choice = by_power_.sample(u_select);
-  if (choice.index < triangles_.size()) return sample_triangle(triangles_[choice.index], reference, u);
-  auto sample = lights_[choice.index - triangles_.size()]->sample_direct(reference, u);
-  if (sample) sample->pdf_solid_angle *= static_cast<float>(choice.probability);
+std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_select, Vec2 u,
+                                                    EmitterChoice choice) const {
+  const bool among_all = choice == EmitterChoice::all;
+  if (among_all ? empty() : lights_.empty()) return std::nullopt;
+  const DiscreteDistribution::Sample chosen = (among_all ? by_power_ : lights_by_power_).sample(u_select);
+  const std::size_t triangles = among_all ? triangles_.size() : 0;
+  if (chosen.index < triangles) return sample_triangle(triangles_[chosen.index], reference, u);
+  auto sample = lights_[chosen.index - triangles]->sample_direct(reference, u);
+  if (sample) sample->pdf_solid_angle *= static_cast<float>(chosen.probability);
   return sample;
 }
 
@@ -117,7 +123,9 @@ EmissionSample Emitters::sample_triangle_emission(const EmissiveTriangle& emitte
   const Vec3 direction = frame_from_normal(n).to_world(square_to_cosine_hemisphere(u_direction));
   // Le cos / (1 / area * cos / pi)
   const auto flux = static_cast<float>(std::numbers::pi * emitter.area);
-  return {{offset_position(position, n, error, direction), direction}, flux * emitter.radiance};
+  return {.ray = {offset_position(position, n, error, direction), direction},
+          .power = flux * emitter.radiance,
+          .origin = EmittingPoint{position, n, error}};
 }
 
 const Emitters::EmissiveTriangle* Emitters::find(const SurfacePoint& hit) const {

@@ -24,6 +24,9 @@ struct AreaLight {
 
 using LightPtr = std::shared_ptr<const Light>;
 
+/// Among which emitters next-event estimation chooses.
+enum class EmitterChoice : std::uint8_t { all, without_area_lights };
+
 /// All emitters of a scene, chosen in proportion to power (luminance): every triangle of an area light is one, and so
 /// is every other light.
 class Emitters {
@@ -37,19 +40,21 @@ class Emitters {
   /// Total emitted power (flux) per channel.
   Rgb power() const { return power_; }
 
-  /// `u_select` chooses the emitter, `u` the point or direction. nullopt where the choice does not light the reference.
-  std::optional<DirectSample> sample_direct(Point3 reference, double u_select, Vec2 u) const;
-  /// Density of sample_direct at a hit: the emitter's triangle was reached from `reference` at `hit`; 1/sr.
+  /// `u_select` chooses the emitter, `u` the point or direction. nullopt where the choice does not light the reference,
+  /// or there is none.
+  std::optional<DirectSample> sample_direct(Point3 reference, double u_select, Vec2 u,
+                                            EmitterChoice choice = EmitterChoice::all) const;
+  /// Density of sample_direct among all at a hit: the emitter's triangle was reached from `reference` at `hit`; 1/sr.
   float pdf_direct(Point3 reference, const SurfacePoint& hit) const;
   /// Radiance that leaves `hit` towards the unit direction `wo`; 0 where it emits nothing.
   Rgb radiance(const SurfacePoint& hit, Vec3 wo) const;
   /// Only with !empty().
   EmissionSample sample_emission(double u_select, Vec2 u_point, Vec2 u_direction) const;
 
-  /// A light that rays out of the scene meet, and the probability of its choice by sample_direct().
+  /// A light that rays out of the scene meet, and the probabilities of its choice by sample_direct().
   struct Environment {
     LightPtr light;
-    float probability;
+    float probability, probability_without_area_lights;
   };
   std::span<const Environment> environments() const { return environments_; }
 
@@ -69,7 +74,8 @@ class Emitters {
   std::vector<LightPtr> lights_;             // those with power
   std::vector<Environment> environments_;
   BoundingSphere scene_;
-  DiscreteDistribution by_power_;  // triangles, then lights
+  DiscreteDistribution by_power_;         // triangles, then lights
+  DiscreteDistribution lights_by_power_;  // lights alone
   Rgb power_;
 };
 

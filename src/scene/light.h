@@ -20,11 +20,19 @@ struct DirectSample {
   bool delta = false;     ///< no ray can hit the emitter by chance
 };
 
+/// A point of an area light.
+struct EmittingPoint {
+  Point3 position;
+  Normal3 normal;   ///< unit, on the side that emits
+  float error = 0;  ///< as in SurfacePoint
+};
+
 /// A particle's start.
 struct EmissionSample {
   Ray ray;
   Rgb power;           ///< Le cos / (pdf_area pdf_solid_angle): what the particle carries if one path is traced
   bool delta = false;  ///< no ray can hit the emitter by chance
+  std::optional<EmittingPoint> origin;  ///< on an area light; its emission is diffuse. nullopt: on none
 };
 
 /// A ball that holds the scene's surfaces.

@@ -41,6 +41,18 @@ void deposit(const ShadedPoint& y, Vec3 wi, Rgb flux, int vertex, const LobeSele
   set.vpls.push_back(vpl);
 }
 
+/// Leaves the VPL of a path of `flux` at its start on an area light: diffuse emission is a Lambert lobe of albedo 1
+/// that the whole flux has come to.
+void deposit_on_emitter(const EmittingPoint& origin, Rgb flux, VplSet& set) {
+  Vpl vpl;
+  vpl.position = origin.position;
+  vpl.flux = flux;
+  vpl.max_pi_f = 1;
+  vpl.geometric_normal = vpl.shading_normal = vpl.incoming = OctahedralNormal(as_vec(origin.normal));
+  vpl.set_error(origin.error);
+  set.vpls.push_back(vpl);
+}
+
 /// How a particle goes on from a vertex.
 struct Step {
   Ray ray;
@@ -85,6 +97,7 @@ std::uint64_t trace_light_path(const Scene& scene, const LightTracingSettings& s
   const Vec2 u_direction = random.get2(Use::emission_direction);
   const EmissionSample emission = scene.emitters().sample_emission(u_emitter, u_point, u_direction);
   Rgb flux = emission.power / static_cast<float>(settings.light_paths);
+  if (settings.on_emitters && emission.origin) deposit_on_emitter(*emission.origin, flux, set);
   Ray ray = emission.ray;
   bool has_scattered = false;
   std::uint64_t rays = 0;

@@ -13,8 +13,8 @@
 
 namespace gradslc {
 
-/// A virtual point light (Keller 1997): the light that leaves vertex y of a light path through its connectable lobes.
-/// 48 bytes.
+/// A virtual point light (Keller 1997): the light that leaves vertex y of a light path through its connectable lobes,
+/// or, at k = 0, the area light that the path starts on. 48 bytes.
 struct Vpl {
   static constexpr std::uint32_t k_lambert = std::numeric_limits<std::uint32_t>::max();
 
@@ -25,7 +25,7 @@ struct Vpl {
   float max_pi_f = 0;                 ///< Lambert: largest channel of pi f_c(y); otherwise its bound's max(); > 0
   OctahedralNormal geometric_normal;  ///< on the side of shading_normal
   OctahedralNormal shading_normal;    ///< Lambert: on the side that reflects
-  OctahedralNormal incoming;          ///< wi: towards the vertex before it
+  OctahedralNormal incoming;          ///< wi: towards the vertex before it; on an emitter the normal
   std::uint32_t surface = k_lambert;  ///< where f_c(y) is not Lambert: index into VplSet::surfaces
   std::uint16_t rounded_error = 0;    ///< upper half of a float that is not below SurfacePoint::error
   std::uint16_t vertex = 0;           ///< k: 0 on the emitter, 1 at the first surface

@@ -18,6 +18,7 @@ enum class Bounding : std::uint8_t {
 struct VplParameters {
   std::int64_t light_paths = 2000;
   int max_bounces = 0;
+  bool direct = false;
   int passes_per_set = 1;
   float connectable_roughness = 0.1f;
   Bounding bounding = Bounding::compensate;
@@ -33,6 +34,8 @@ inline void describe(ParameterVisitor& v, VplParameters& p) {
   v.integer("light_paths", p.light_paths, {1, 1e9}, "paths", "light paths traced for one set of VPLs");
   v.integer("max_bounces", p.max_bounces, {0, 1000}, "vertices",
             "most surface vertices of a light path; 0: max_depth - 2; less truncates the estimand");
+  v.boolean("direct", p.direct,
+            "VPLs on area lights bring direct light to gather points, in place of next-event estimation");
   v.integer("passes_per_set", p.passes_per_set, {0, 1e9}, "passes",
             "passes that one VPL set lasts; 0: one set for the whole run, which converges to that set's image");
   v.real("connectable_roughness", p.connectable_roughness, {1e-3, 1}, "alpha",

@@ -36,6 +36,10 @@ const std::vector<Method>& every_method() {
       {"slc", "slc", {{"vpl/light_paths", 300.0}}},
       {"slc, cuts by error", "slc", {{"vpl/light_paths", 300.0}, {"cut_error", 0.2}}},
       {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 300.0}}},
+      {"slc, direct light through VPLs", "slc", {{"vpl/light_paths", 300.0}, {"vpl/direct", true}}},
+      {"slc tile, direct light through VPLs",
+       "slc",
+       {{"gather", "tile"}, {"vpl/light_paths", 300.0}, {"vpl/direct", true}}},
       {"slc, sets of 2", "slc", {{"vpl/light_paths", 300.0}, {"vpl/passes_per_set", 2.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}}},
@@ -221,6 +225,52 @@ TEST(Integrators, ImageDoesNotDependOnTheUnitOfLength) {
     for (std::size_t i = 0; i < a.size(); ++i)
       EXPECT_NEAR(luminance(a[i]), luminance(b[i]), 1e-3f * (0.1f + luminance(a[i]))) << method.label << " " << i;
   }
+}
+
+struct SetOfVpls {
+  double planned, made, bound;
+};
+SetOfVpls set_of_vpls(const Scene& scene, const RenderSettings& settings, bool direct) {
+  const auto slc = Method{"", "slc", {{"vpl/light_paths", 400.0}, {"vpl/direct", direct}}}.make();
+  SetOfVpls set{slc->plan_memory(scene, settings).vpls, 0, 0};
+  slc->prepare(scene, settings);
+  Film film(scene.camera().resolution(), {});
+  slc->render_pass(0, film);
+  for (const auto& [name, value] : slc->statistics().counters) {
+    if (name == "vpls_per_set") set.made = value;
+    if (name == "vpl_bound") set.bound = value;
+  }
+  return set;
+}
+
+// A path leaves one on the lamp where D = p + 1 + c can count: always as direct light; as indirect light only behind a
+// mirror or a crossing. The bound stays that of the walls' density.
+TEST(DirectLightThroughVpls, HasVplsOnEmittersWhereTheyCanCount) {
+  constexpr Components k_indirect{.emission = false, .direct = false};
+  for (const bool mirror : {false, true}) {
+    const Scene scene = test_box({4, 4}, {.mirror = mirror});
+    for (const bool only_indirect : {false, true}) {
+      const RenderSettings settings{.max_depth = 4, .components = only_indirect ? k_indirect : Components{}};
+      const SetOfVpls without = set_of_vpls(scene, settings, false), with = set_of_vpls(scene, settings, true);
+      const double added = only_indirect && !mirror ? 0 : 400;
+      EXPECT_EQ(with.made, without.made + added) << mirror << only_indirect;
+      EXPECT_EQ(with.planned, without.planned + added) << mirror << only_indirect;
+      EXPECT_EQ(with.bound, without.bound) << mirror << only_indirect;
+    }
+  }
+}
+
+// Without indirect light there are no others, and the bound is that of the lamp's density.
+TEST(DirectLightThroughVpls, HasOnlyVplsOnEmittersWhereNoOthersCount) {
+  const Scene scene = test_box({4, 4});
+  const RenderSettings only_direct{.max_depth = 5, .components = {.indirect = false}};
+  for (const RenderSettings& settings : {only_direct, RenderSettings{.max_depth = 2}}) {
+    const SetOfVpls set = set_of_vpls(scene, settings, true);
+    EXPECT_EQ(set.made, 400);
+    EXPECT_GT(set.bound, set_of_vpls(scene, {.max_depth = 5}, true).bound);
+    EXPECT_LT(set.bound, 1e6);
+  }
+  EXPECT_EQ(set_of_vpls(scene, {.max_depth = 1}, true).made, 0);
 }
 
 TEST(PassSchedule, HalvesAlternateBySet) {

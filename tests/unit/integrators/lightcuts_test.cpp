@@ -15,7 +15,7 @@ constexpr RenderSettings k_settings{.max_depth = 5};
 constexpr double k_light_paths = 600;
 
 struct Rendered {
-  RgbImage vpl;
+  RgbImage vpl, direct;
   std::map<std::string, double> counters;
 };
 
@@ -26,7 +26,7 @@ Rendered render(const std::string& integrator, std::map<std::string, ParameterVa
   method->prepare(scene, k_settings);
   Film film(scene.camera().resolution(), {.gradients = false, .parts = true});
   for (std::uint32_t pass = 0; pass < passes; ++pass) method->render_pass(pass, film);
-  Rendered rendered{film.part(Part::vpl), {}};
+  Rendered rendered{film.part(Part::vpl), film.part(Part::direct), {}};
   for (const auto& counter : method->statistics().counters) rendered.counters[counter.name] = counter.value;
   return rendered;
 }
@@ -96,6 +96,32 @@ TEST(Lightcuts, FullCutIsTheSumOfAllVpls) {
   const RgbImage cut = render("lightcuts", {{"error_ratio", 0.0}, {"max_cut_size", 100000.0}}, scene).vpl;
   for (std::size_t i = 0; i < cut.size(); ++i)
     EXPECT_NEAR(luminance(cut[i]), luminance(exact[i]), 2e-5f * (1 + luminance(exact[i])));
+}
+
+// Clusters of VPLs on the lamp and on walls are told apart by their representatives.
+TEST(Lightcuts, FullCutIsTheSumOfAllVplsWithThoseOnEmitters) {
+  const Scene scene = test_box({16, 16}, {.mirror = true});
+  const Rendered exact = render("vpl", {{"vpl/direct", true}}, scene);
+  const Rendered cut =
+      render("lightcuts", {{"vpl/direct", true}, {"error_ratio", 0.0}, {"max_cut_size", 100000.0}}, scene);
+  float direct = 0;
+  for (std::size_t i = 0; i < cut.vpl.size(); ++i) {
+    EXPECT_NEAR(luminance(cut.vpl[i]), luminance(exact.vpl[i]), 2e-5f * (1 + luminance(exact.vpl[i])));
+    EXPECT_NEAR(luminance(cut.direct[i]), luminance(exact.direct[i]), 2e-5f * (1 + luminance(exact.direct[i])));
+    direct += luminance(cut.direct[i]);
+  }
+  EXPECT_GT(direct, 0);
+}
+
+// Parts of mixed clusters follow their representatives: right on average over sets.
+TEST(Lightcuts, PartsOfCoarseCutsAreRightOnAverage) {
+  const Scene scene = test_box({16, 16}, {.mirror = true});
+  constexpr double k_ratio = 0.02;
+  constexpr std::uint32_t k_sets = 20;
+  const Rendered exact = render("vpl", {{"vpl/direct", true}}, scene, k_sets);
+  const Rendered cut = render("lightcuts", {{"vpl/direct", true}, {"error_ratio", k_ratio}}, scene, k_sets);
+  EXPECT_LT(std::abs(errors_of(cut.vpl, exact.vpl).of_mean), k_ratio);
+  EXPECT_LT(std::abs(errors_of(cut.direct, exact.direct).of_mean), k_ratio);
 }
 
 TEST(Lightcuts, SaysThatItIsBiased) {

@@ -307,7 +307,8 @@ TEST(Emitters, OfAllKindsAreChosenByPower) {
   const Scene scene = lamp_sky_and_point();
   const Emitters& emitters = scene.emitters();
   ASSERT_EQ(emitters.environments().size(), 1u);
-  const auto& [sky, sky_probability] = emitters.environments()[0];
+  const auto& [sky, sky_probability, probability_among_lights] = emitters.environments()[0];
+  EXPECT_GT(probability_among_lights, sky_probability);
   const BoundingSphere ball = scene.bounding_sphere();
   const double weights[] = {k_pi * luminance(Rgb(9, 6, 3)), luminance(sky->power(ball)),
                             4 * k_pi * luminance(Rgb(2, 3, 4))};
@@ -339,6 +340,37 @@ TEST(Emitters, OfAllKindsAreChosenByPower) {
     }
   }
   EXPECT_GT(chi_square_test(chosen, expected).p_value, 1e-3);
+}
+
+// The others are chosen by their power among themselves. False alarm 0.1 %.
+TEST(Emitters, WithoutAreaLightsAreChosenByPower) {
+  const Scene scene = lamp_sky_and_point();
+  const Emitters& emitters = scene.emitters();
+  const auto& sky = emitters.environments()[0];
+  const double sky_power = luminance(sky.light->power(scene.bounding_sphere()));
+  const double sky_share = sky_power / (sky_power + static_cast<double>(4 * k_pi * luminance(Rgb(2, 3, 4))));
+  EXPECT_NEAR(sky.probability_without_area_lights, sky_share, 1e-6);
+  Random random(11);
+  constexpr int k_samples = 20000;
+  std::vector<double> chosen(2);
+  const std::vector<double> expected = {k_samples * sky_share, k_samples * (1 - sky_share)};
+  for (int i = 0; i < k_samples; ++i) {
+    const double u_select = random.uniform();
+    const auto sample =
+        emitters.sample_direct({0.1f, -0.3f, 0.2f}, u_select, random.get2(), EmitterChoice::without_area_lights);
+    ASSERT_TRUE(sample);
+    ASSERT_TRUE(sample->infinite || sample->delta) << "an area light";
+    ++chosen[sample->infinite ? 0 : 1];
+    const double pdf =
+        sample->infinite ? sky_share * static_cast<double>(sky.light->pdf_direct(sample->wi)) : 1 - sky_share;
+    ASSERT_NEAR(static_cast<double>(sample->pdf_solid_angle), pdf, 1e-5 * (1 + pdf));
+  }
+  EXPECT_GT(chi_square_test(chosen, expected).p_value, 1e-3);
+
+  SceneDescription lamp_alone = test::describe({test::parallelogram({-1, -1, -1}, {0, 0, 2}, {2, 0, 0})});
+  add_lamp(lamp_alone, test::parallelogram({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}), Rgb(9, 6, 3));
+  const Scene lamp(std::move(lamp_alone));
+  EXPECT_FALSE(lamp.emitters().sample_direct({0, 0, 0}, 0.5, {0.5f, 0.5f}, EmitterChoice::without_area_lights));
 }
 
 // What particles bring to a small rectangle below the lamp is what light sampling finds there. False alarm 0.1 %.

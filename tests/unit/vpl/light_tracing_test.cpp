@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <memory>
+#include <numbers>
 #include <span>
+#include <vector>
 
 #include "core/parallel.h"
+#include "scene/lights/point.h"
 #include "support/render/scenes.h"
 #include "support/statistics.h"
 
@@ -39,6 +44,46 @@ TEST(LightTracing, ConservesEnergyAtEveryBounce) {
   EXPECT_NEAR(reflected[1].mean(), 0.6 * power, 1e-3 * power);  // no choice is left to chance before the first vertex
   for (std::size_t k = 2; k <= k_bounces; ++k)
     EXPECT_GT(reflected[k].p_value(power * std::pow(0.6, static_cast<double>(k))), sidak(0.001, k_bounces - 1)) << k;
+}
+
+/// Paths that start on an area light, and on none: a point light of the same power.
+Scene lamp_and_point() {
+  SceneDescription description;
+  description.materials = {diffuse_material(Rgb(0.5f))};
+  description.area_lights = {{Rgb(3)}};
+  TriangleMesh lamp = quad({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}, 0);  // faces down
+  lamp.area_light = 0;
+  description.meshes = {lamp, inward_box({-2, -2, -2}, {2, 2, 2}, 0)};
+  description.lights = {std::make_shared<const PointLight>(Point3{1, 0, 1}, Rgb(0.75f))};
+  return Scene(std::move(description));
+}
+
+TEST(LightTracing, LeavesVplsOnAreaLightsIfAskedFor) {
+  const Scene scene = lamp_and_point();
+  constexpr int k_paths = 4096;
+  LightTracingSettings settings = settings_for(k_paths, 3);
+  const VplSet without = trace_vpls(scene, settings);
+  settings.on_emitters = true;
+  const VplSet with = trace_vpls(scene, settings);
+
+  std::vector<Vpl> on_lamp, others;
+  for (const Vpl& vpl : with.vpls) (vpl.vertex == 0 ? on_lamp : others).push_back(vpl);
+  EXPECT_TRUE(same_bits(others, without.vpls)) << "they must not change the rest";
+  EXPECT_NEAR(static_cast<double>(on_lamp.size()), k_paths / 2, 2) << "half of the power, stratified";
+  double flux = 0;
+  for (const Vpl& vpl : on_lamp) {
+    flux += static_cast<double>(vpl.flux.g);
+    EXPECT_TRUE(vpl.is_lambert());
+    EXPECT_EQ(vpl.max_pi_f, 1);
+    EXPECT_LT(std::abs(vpl.position.x), 0.5f);
+    EXPECT_NEAR(vpl.position.y, 1, 1e-6f);
+    EXPECT_LT(vpl.geometric_normal.decode().y, -0.9999f);
+    EXPECT_EQ(vpl.shading_normal, vpl.geometric_normal);
+  }
+  EXPECT_NEAR(flux, 3 * std::numbers::pi, 0.01);
+
+  settings.max_bounces = 0;
+  EXPECT_TRUE(same_bits(trace_vpls(scene, settings).vpls, on_lamp));
 }
 
 TEST(LightTracing, StopsAfterMaxBounces) {
