@@ -5,14 +5,22 @@
 namespace gradslc {
 namespace {
 
+/// A vertex that gathers, and what counts of its light.
+struct GatherSite {
+  const PathVertex& x;
+  LabelledThroughput throughput;  ///< of the path up to x
+  const Compensation* left_over;  ///< of the connection to x, where x lies behind a ray itself; otherwise null
+  int max_edges;
+};
+
 /// Which emitters the ray looks for.
 struct EmitterSearch {
   bool within_reach = false;  ///< area lights that have VPLs: where K can exceed b
   bool anywhere = false;      ///< those that next-event estimation at x chooses among
 };
 
-EmitterSearch emitter_search(const PathContext& context, const PathVertex& x, const GatherSettings& gather) {
-  if (!connection_may_count(context, x.edges + 1, context.settings.max_depth)) return {};
+EmitterSearch emitter_search(const PathContext& context, const GatherSite& site, const GatherSettings& gather) {
+  if (!connection_may_count(context, site.x.edges + 1, site.max_edges)) return {};
   if (gather.next_event == EmitterChoice::all) return {.within_reach = false, .anywhere = true};
   return {.within_reach = gather.compensate, .anywhere = !context.scene.emitters().environments().empty()};
 }
@@ -53,28 +61,54 @@ Rgb gathered_emission(const PathContext& context, const PathVertex& x, const Gat
   return radiance * compensation_at(*hit, x, gathered, gather).weight(Rgb(k_inv_pi));
 }
 
-/// What the ray through f_c(x) brings from y, the next vertex that scatters: f_s(y) with weight 1, f_c(y) with the
-/// weight that bounding leaves over.
-void add_reflected(PathContext& context, const PathVertex& x, const PathVertex& y, const GatherRay& gathered,
-                   const GatherSettings& gather, LabelledThroughput throughput, PartValues& radiance) {
-  const Compensation compensation = compensation_at(y.point, x, gathered, gather);
-  const bool compensates =
-      compensation.factor * y.bsdf.connectable_value_bound(y.wo, context.lobes).max() > compensation.bound;
-  if (!compensates && !y.bsdf.has(context.lobes.only_other())) return;
-  const int max_edges = std::min(context.settings.max_depth, y.edges + gather.max_bounces);
+void gather_next_event(PathContext& context, const GatherSite& site, const GatherSettings& gather,
+                       PartValues& radiance) {
+  add_next_event(context, site.x, context.lobes.only_connectable(), site.max_edges, site.throughput, site.left_over,
+                 radiance, gather.next_event);
+}
+void send_ray(PathContext& context, const GatherSite& site, const GatherSettings& gather, const VertexGather& vertices,
+              PartValues& radiance);
+
+/// The path goes on from y through the selected lobes, to its end.
+void follow_path(PathContext& context, const GatherSite& at_y, const LobeSelection& lobes, PartValues& radiance) {
   Ray next;
   RayOrigin origin;
-  if (scatter(context, y, max_edges, &compensation, throughput, next, origin, radiance))
-    trace_path(context, next, origin, throughput, y.edges, max_edges, 0, radiance);
+  LabelledThroughput throughput = at_y.throughput;
+  if (scatter(context, at_y.x, lobes, at_y.max_edges, at_y.left_over, throughput, next, origin, radiance))
+    trace_path(context, next, origin, throughput, at_y.x.edges, at_y.max_edges, 0, radiance);
 }
 
-void add_compensation(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                      PartValues& radiance) {
-  const PathVertex& x = *prefix.gather;
+/// What the ray through f_c(x) brings from y, the next vertex that scatters: f_s(y) with weight 1, f_c(y) with the
+/// weight that bounding leaves over.
+void add_reflected(PathContext& context, const GatherSite& site, const PathVertex& y, const GatherRay& gathered,
+                   const GatherSettings& gather, const VertexGather& vertices, const LabelledThroughput& throughput,
+                   PartValues& radiance) {
+  const Compensation left_over = compensation_at(y.point, site.x, gathered, gather);
+  const bool compensates =
+      left_over.factor * y.bsdf.connectable_value_bound(y.wo, context.lobes).max() > left_over.bound;
+  const bool has_other = y.bsdf.has(context.lobes.only_other());
+  const GatherSite at_y{y, throughput, &left_over, std::min(site.max_edges, y.edges + gather.max_bounces)};
+  if (!vertices) {
+    if (compensates || has_other) follow_path(context, at_y, context.lobes, radiance);
+    return;
+  }
+  if (has_other) follow_path(context, at_y, context.lobes.only_other(), radiance);
+  if (!compensates) return;
+  GatherSettings behind = gather;
+  behind.next_event = EmitterChoice::all;
+  gather_next_event(context, at_y, behind, radiance);
+  const LabelledThroughput from_y = throughput.scattered({Rgb(1), Rgb()});
+  from_y.collect(vertices(context, y, left_over, at_y.max_edges), radiance);
+  send_ray(context, at_y, behind, vertices, radiance);
+}
+
+/// The ray through f_c(x).
+void send_ray(PathContext& context, const GatherSite& site, const GatherSettings& gather, const VertexGather& vertices,
+              PartValues& radiance) {
+  const PathVertex& x = site.x;
   const LobeSelection connectable = context.lobes.only_connectable();
-  const int max_depth = context.settings.max_depth;
-  const EmitterSearch emitters = emitter_search(context, x, gather);
-  const bool goes_on = context.settings.components.indirect && x.edges + 1 < max_depth && gather.max_bounces > 0 &&
+  const EmitterSearch emitters = emitter_search(context, site, gather);
+  const bool goes_on = context.settings.components.indirect && x.edges + 1 < site.max_edges && gather.max_bounces > 0 &&
                        (gather.compensate || gather.scene_has_other_lobes);
   if (!emitters.within_reach && !emitters.anywhere && !goes_on) return;
 
@@ -86,19 +120,20 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   const float length = ray_length(sample->direction, f_x, gather, emitters);
   const GatherRay gathered{spawn_ray(x.point, x.to_world(sample->direction), length), *sample, f_x};
 
-  auto throughput =
-      LabelledThroughput::camera_path(prefix.throughput, Part::compensation).scattered({sample->weight, Rgb()});
+  const float left_over = site.left_over ? site.left_over->weight(f_x) : 1;
+  auto throughput = site.throughput.scattered({sample->weight * left_over, Rgb()});
+  if (throughput.is_black()) return;
   RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
   Ray ray = gathered.ray;
   int edges = x.edges;
   const auto emission = [&](const std::optional<SurfacePoint>& hit) {
     return gathered_emission(context, x, gathered, gather, origin, hit);
   };
-  while (const auto hit = trace_edge(context, ray, emission, edges, max_depth, throughput, radiance)) {
+  while (const auto hit = trace_edge(context, ray, emission, edges, site.max_edges, throughput, radiance)) {
     if (!goes_on && !context.scene.has_crossings()) return;
     const PathVertex y = make_path_vertex(context.scene, *hit, -ray.direction, edges);
     if (passes_on(context, y, throughput, ray, origin)) continue;
-    if (goes_on) add_reflected(context, x, y, gathered, gather, throughput, radiance);
+    if (goes_on) add_reflected(context, site, y, gathered, gather, vertices, throughput, radiance);
     return;
   }
 }
@@ -120,19 +155,27 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
   return gather;
 }
 
+float reach_of_vertices(const Scene& scene, const GatherSettings& gather, int max_depth) {
+  if (!gather.compensate) return 0;
+  const float step = compensation_reach(gather.max_pi_f, 1, gather.max_pi_f, gather.bound);
+  return std::min(static_cast<float>(max_depth) * step, 2 * scene.bounding_sphere().radius);
+}
+
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                          PartValues& radiance, float mean_rays) {
-  add_next_event(context, *prefix.gather, context.lobes.only_connectable(), context.settings.max_depth,
-                 LabelledThroughput::camera_path(prefix.throughput), nullptr, radiance, gather.next_event);
+                          PartValues& radiance, float mean_rays, const VertexGather& vertices) {
+  GatherSite site{*prefix.gather, LabelledThroughput::camera_path(prefix.throughput), nullptr,
+                  context.settings.max_depth};
+  gather_next_event(context, site, gather, radiance);
+  site.throughput.vpl_part = Part::compensation;
   PartValues brought;
   if (mean_rays == 1) {
-    add_compensation(context, prefix, gather, brought);
+    send_ray(context, site, gather, vertices, brought);
   } else {
     const auto count = static_cast<std::uint32_t>(mean_rays + context.random.get1(Use::ray_count));
     const SampleStream random = context.random;
     for (std::uint32_t ray = 0; ray < count; ++ray) {
       context.random = random.branch(ray);
-      add_compensation(context, prefix, gather, brought);
+      send_ray(context, site, gather, vertices, brought);
     }
     context.random = random;
     brought *= 1 / mean_rays;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "integrators/camera_prefix.h"
 #include "vpl/connection.h"
 #include "vpl/vpl_parameters.h"
@@ -17,6 +19,10 @@ struct GatherSettings {
 };
 GatherSettings make_gather_settings(const Scene& scene, const VplParameters& parameters, float bound, int max_depth);
 
+/// How far the vertices at which bounding leaves something over can lie from the gather vertex: as many steps as paths
+/// have, each no longer than K can exceed b; nor farther than the scene is wide.
+float reach_of_vertices(const Scene& scene, const GatherSettings& gather, int max_depth);
+
 /// D = p + 1 + k of the paths that connect x with a VPL, without the crossings between them.
 inline int connection_edges(const PathVertex& x, const Vpl& y) { return x.edges + 1 + static_cast<int>(y.vertex); }
 /// Whether they can count, whatever the connection crosses.
@@ -24,14 +30,14 @@ inline bool vpl_may_count(const PathContext& context, const PathVertex& x, const
   return connection_may_count(context, connection_edges(x, y), context.settings.max_depth);
 }
 
-/// The vertices k of light paths whose VPLs may count at x; none where least > most.
+/// The vertices k of light paths whose VPLs may count at x over paths of at most `max_edges`; none where least > most.
 struct VertexRange {
   int least, most;
 };
-inline VertexRange vertices_that_may_count(const PathContext& context, const PathVertex& x) {
-  const int max_depth = context.settings.max_depth, nearest = x.edges + 1;
-  VertexRange range{0, max_depth - nearest};
-  const auto counts = [&](int k) { return connection_may_count(context, nearest + k, max_depth); };
+inline VertexRange vertices_that_may_count(const PathContext& context, const PathVertex& x, int max_edges) {
+  const int nearest = x.edges + 1;
+  VertexRange range{0, max_edges - nearest};
+  const auto counts = [&](int k) { return connection_may_count(context, nearest + k, max_edges); };
   while (range.least <= range.most && !counts(range.least)) ++range.least;
   while (range.least <= range.most && !counts(range.most)) --range.most;
   return range;
@@ -48,12 +54,17 @@ struct VplLight {
   }
 };
 
+/// Light from VPLs at y, a vertex behind a ray, over paths of at most `max_edges`, times what bounding has left over of
+/// the connection to y: an estimate that stands for the path's going on from y through f_c(y).
+using VertexGather =
+    std::function<Rgb(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges)>;
+
 /// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the ray through
 /// f_c(x) that brings emitters (weighted against next-event estimation, or with what bounding has taken from VPLs on
 /// them), f_s(y) with weight 1 and f_c(y) with what bounding has taken. `mean_rays` > 0 of these rays are sent on
-/// average: their number is rounded at random, and what they bring divided by the mean. Returns the luminance that they
-/// brought, all parts together.
+/// average: their number is rounded at random, and what they bring divided by the mean. Behind them `vertices`, if
+/// there is one, gathers; otherwise paths go on. Returns the luminance that they brought, all parts together.
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                          PartValues& radiance, float mean_rays = 1);
+                          PartValues& radiance, float mean_rays = 1, const VertexGather& vertices = {});
 
 }  // namespace gradslc

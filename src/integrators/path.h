@@ -166,12 +166,12 @@ bool passes_on(const PathContext& context, const PathVertex& vertex, Throughput&
   return true;
 }
 
-/// Next-event estimation at a vertex, then a sampled direction: updates throughput, ray and origin. False: the path
-/// ends.
+/// Next-event estimation at a vertex through the selected lobes, then a sampled direction: updates throughput, ray and
+/// origin. False: the path ends.
 template <class Throughput>
-bool scatter(PathContext& context, const PathVertex& vertex, int max_edges, const Compensation* compensation,
-             Throughput& throughput, Ray& ray, RayOrigin& origin, PartValues& radiance) {
-  const LobeSelection& lobes = context.lobes;
+bool scatter(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes, int max_edges,
+             const Compensation* compensation, Throughput& throughput, Ray& ray, RayOrigin& origin,
+             PartValues& radiance) {
   add_next_event(context, vertex, lobes, max_edges, throughput, compensation, radiance);
 
   const auto index = static_cast<std::uint32_t>(vertex.edges);
@@ -208,7 +208,7 @@ void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput thro
   while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, radiance)) {
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
     if (passes_on(context, vertex, throughput, ray, origin)) continue;
-    if (!scatter(context, vertex, max_edges, nullptr, throughput, ray, origin, radiance)) return;
+    if (!scatter(context, vertex, context.lobes, max_edges, nullptr, throughput, ray, origin, radiance)) return;
     if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;
   }
 }

@@ -28,8 +28,11 @@ class StochasticLightcuts final : public Integrator {
         "cut_error", cut_limits_.error, {0, 1}, "share",
         "descent: the cut is fine enough once no bound that could be refined is above this share of all; 0: cut_size");
     v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
-    v.group("compensation", "tile: the rays that bring what bounding takes",
-            [&] { gradslc::describe(v, ray_parameters_); });
+    v.group("compensation", "tile: the rays that bring what bounding takes", [&] {
+      gradslc::describe(v, ray_parameters_);
+      v.boolean("gather_vertices", gather_vertices_,
+                "vertices behind these rays gather from the tile's candidates; false: paths go on from there");
+    });
     source_.describe(v);
   }
 
@@ -38,6 +41,7 @@ class StochasticLightcuts final : public Integrator {
     allocation_.reset();
     source_.prepare(scene, settings);
     gather_ = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth);
+    reach_ = gather_vertices_ ? reach_of_vertices(scene, gather_, settings.max_depth) : 0;
   }
 
   void render_pass(std::uint32_t pass, Film& film) override {
@@ -139,7 +143,9 @@ class StochasticLightcuts final : public Integrator {
     std::mutex cost_mutex;
     constexpr std::size_t k_tiles_per_chunk = 4;  // memory is kept from tile to tile
     parallel_for(partition.size(), k_tiles_per_chunk, [&](std::size_t begin, std::size_t end) {
-      TileGatherer gatherer(*scene_, tree, tile_, gather_.bound);
+      TileGatherer gatherer(*scene_, tree, tile_, gather_.bound, reach_);
+      VertexGather behind;
+      if (reach_ > 0) behind = [&gatherer](auto&&... at) { return gatherer.gather_behind(at...); };
       std::vector<TilePixel> pixels;
       std::vector<Receiver> receivers;
       std::uint64_t rays = 0;
@@ -160,7 +166,7 @@ class StochasticLightcuts final : public Integrator {
           PartValues radiance = prefix.radiance;
           float brought = 0;
           if (prefix.gather) {
-            brought = gather_without_vpls(context, prefix, gather_, radiance, mean_rays(pixel));
+            brought = gather_without_vpls(context, prefix, gather_, radiance, mean_rays(pixel), behind);
             const double u = context.random.get1_double(Use::candidate_choice);
             gatherer.gather(context, *prefix.gather, u).collect(prefix.throughput, radiance);
           }
@@ -183,11 +189,13 @@ class StochasticLightcuts final : public Integrator {
   CutLimits cut_limits_{.size = 10};
   TileParameters tile_;
   RayAllocationParameters ray_parameters_;
+  bool gather_vertices_ = true;
   std::optional<RayAllocation> allocation_;
   VplSource source_{VplSource::Structure::tree};
   const Scene* scene_ = nullptr;
   RenderSettings settings_;
   GatherSettings gather_;
+  float reach_ = 0;  ///< of vertices that gather from candidates
   SelectionCost cut_cost_;
   TileCost tile_cost_;
   std::uint64_t rays_ = 0;

@@ -1,12 +1,16 @@
 #include "integrators/tile_gather.h"
 
+#include <algorithm>
+
 namespace gradslc {
 
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
   if (!receivers.empty()) {
-    const TileLaw law(receivers,
-                      {.defensive = parameters_.defensive, .cosine_floor = parameters_.cosine_floor, .bound = bound_});
+    const TileLaw law(receivers, {.defensive = parameters_.defensive,
+                                  .cosine_floor = parameters_.cosine_floor,
+                                  .bound = bound_,
+                                  .reach = reach_});
     cost_.nodes += draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
   }
   candidates_.assign(tree_.set, drawn_, parameters_.candidates);
@@ -14,12 +18,25 @@ void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
 }
 
 VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
+  return sum_draws(context, x, vertices_that_may_count(context, x, context.settings.max_depth), nullptr,
+                   context.settings.max_depth, parameters_.samples, u);
+}
+
+Rgb TileGatherer::gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over,
+                                int max_edges) {
+  VertexRange range = vertices_that_may_count(context, y, max_edges);
+  range.least = std::max(range.least, 1);  // emitters are left to next-event estimation
+  const double u = context.random.get1_double(Use::candidate_choice, static_cast<std::uint32_t>(y.edges));
+  return sum_draws(context, y, range, &left_over, max_edges, 1, u).vpl;
+}
+
+VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, VertexRange range,
+                                 const Compensation* left_over, int max_edges, int samples, double u) {
   const GatherPoint point{x, context.lobes};
-  const auto [least_k, most_k] = vertices_that_may_count(context, x);
-  const CandidateReceiver receiver = make_candidate_receiver(point, least_k, most_k);
+  const CandidateReceiver receiver = make_candidate_receiver(point, range.least, range.most);
   candidates_.evaluate(receiver, bound_);
   cost_.evaluations += candidates_.size();
-  candidates_.choose(parameters_.samples, u, choice_);
+  candidates_.choose(samples, u, choice_);
   VplLight light;
   for (const CandidateDraw& draw : choice_) {
     const Vpl& vpl = vpls_[candidates_.vpl(draw.candidate)];
@@ -28,11 +45,15 @@ VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double 
             ? candidates_.contribution(receiver, draw.candidate)
             : candidates_.weight(draw.candidate) * unshadowed_contribution(point, vpls_, vpl, bound_);
     if (is_black(contribution)) continue;
-    const Rgb transmittance =
-        connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    const Ray segment = connection_segment(point, vpl);
+    const Rgb transmittance = connect(context, segment, connection_edges(x, vpl), max_edges).transmittance;
     if (is_black(transmittance)) continue;
-    light.from(vpl) +=
-        contribution * transmittance * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
+    float weight = static_cast<float>(draw.count / (samples * draw.probability));
+    if (left_over) {
+      const Vec3 wi = x.to_local(normalize(vpl.position - x.point.position));
+      weight *= left_over->weight(x.bsdf.eval(x.wo, wi, context.lobes.only_connectable()));
+    }
+    light.from(vpl) += contribution * transmittance * weight;
   }
   return light;
 }

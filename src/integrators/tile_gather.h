@@ -35,20 +35,26 @@ struct TileCost {
 /// Gathers from VPLs at the points of one tile after the other. Keeps its memory between tiles; one per thread.
 class TileGatherer {
  public:
-  TileGatherer(const Scene& scene, const LightTree& tree, const TileParameters& parameters, float bound)
-      : vpls_{scene.materials(), tree.set}, tree_(tree), parameters_(parameters), bound_(bound) {}
+  /// `bound`: b. `reach`: how far from the tile's gather points gather_behind() is called; 0: never.
+  TileGatherer(const Scene& scene, const LightTree& tree, const TileParameters& parameters, float bound, float reach)
+      : vpls_{scene.materials(), tree.set}, tree_(tree), parameters_(parameters), bound_(bound), reach_(reach) {}
 
   /// Draws the candidates for all gather points of a tile, `u` in [0,1).
   void begin_tile(std::span<const Receiver> receivers, double u);
   /// Light from VPLs at x, which must be one of the tile's; `u` in [0,1).
   VplLight gather(PathContext& context, const PathVertex& x, double u);
+  /// A VertexGather, of one draw, at a vertex behind a ray sent from one of the tile's gather points.
+  Rgb gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges);
   const TileCost& cost() const { return cost_; }
 
  private:
+  VplLight sum_draws(PathContext& context, const PathVertex& x, VertexRange range, const Compensation* left_over,
+                     int max_edges, int samples, double u);
+
   VplView vpls_;
   const LightTree& tree_;
   const TileParameters& parameters_;
-  float bound_;
+  float bound_, reach_;
   std::vector<Candidate> drawn_;
   CandidateSet candidates_;
   std::vector<CandidateDraw> choice_;

@@ -113,21 +113,30 @@ TileLaw::TileLaw(std::span<const Receiver> receivers, const TileLawSettings& set
   const Float8 to_tile[3] = {centre_.x - lanes.centre[0], centre_.y - lanes.centre[1], centre_.z - lanes.centre[2]};
   const Float8 from_tile[3] = {-to_tile[0], -to_tile[1], -to_tile[2]};
   const Float8 distance2 = lane_dot(to_tile, to_tile);
-  const Float8 radius = lanes.radius + radius_, radius2 = radius * radius;
   const Float8 tile_axis[3] = {normals_.axis.x, normals_.axis.y, normals_.axis.z};
   const auto slackened = [](Float8 cosine) {
     return stdx::max(stdx::min(cosine + k_cosine_slack, Float8(1)), Float8(0));
   };
-  const Float8 cosines =
-      slackened(lane_cone_cosine(from_tile, distance2, radius2, tile_axis, normals_.cosine, normals_.sine())) *
-      slackened(lane_cone_cosine(to_tile, distance2, radius2, lanes.axis, lanes.cosine, lanes.sine));
   Float8 flux = lanes.flux;
   if (gloss) flux += load_aligned(gloss->peak);
-  const Float8 spread2 = distance2 + radius2;
-  Float8 all = stdx::min(flux * cosines / spread2, lanes.cap);
-  stdx::where(!(spread2 > 0), all) = lanes.cap;
-  sum += settings_.defensive * all;
-  stdx::where(cosines == 0 || flux == 0, sum) = 0;
+  const auto emitted = [&](Float8 radius2) {
+    return flux * slackened(lane_cone_cosine(to_tile, distance2, radius2, lanes.axis, lanes.cosine, lanes.sine));
+  };
+  const auto spread = [&](Float8 power, Float8 radius2) {
+    const Float8 spread2 = distance2 + radius2;
+    Float8 all = stdx::min(power / spread2, lanes.cap);
+    stdx::where(!(spread2 > 0) && power > 0, all) = lanes.cap;
+    return all;
+  };
+  const Float8 radius = lanes.radius + radius_, radius2 = radius * radius;
+  const Float8 to_receivers = emitted(radius2) * slackened(lane_cone_cosine(from_tile, distance2, radius2, tile_axis,
+                                                                            normals_.cosine, normals_.sine()));
+  sum += settings_.defensive * spread(to_receivers, radius2);
+  stdx::where(to_receivers == 0, sum) = 0;
+  if (settings_.reach > 0) {
+    const Float8 wider = radius + settings_.reach, wider2 = wider * wider;
+    sum += settings_.defensive * spread(emitted(wider2), wider2);
+  }
   sum.copy_to(weights, stdx::vector_aligned);
 }
 

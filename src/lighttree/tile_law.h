@@ -8,13 +8,15 @@
 namespace gradslc {
 
 struct TileLawSettings {
-  float defensive = 0.1f;     ///< share of the importance to all receivers together
+  float defensive = 0.1f;     ///< share of the importances to all points that may gather; 0 leaves some of them short
   float cosine_floor = 0.2f;  ///< least cosine of the importance to one receiver
   float bound = k_infinity;   ///< b of connections
+  float reach = 0;  ///< vertices as far as this from receivers may gather too, with any normal; 0: there are none
 };
 
 /// How important VPLs are to all receivers of a tile (DESIGN 5): the mean of the importance to some of them, which
-/// represent the others, plus `defensive` times an importance that is 0 only where nothing lights any receiver. A
+/// represent the others, plus `defensive` times an importance that is 0 only where nothing lights any receiver, and as
+/// much of one that is 0 only where nothing lights any point within `reach` of receivers. A
 /// node's weight is an estimate and no bound; what counts is that it is positive wherever a VPL below lights a
 /// receiver.
 class TileLaw {

@@ -37,10 +37,12 @@ Scene poles_and_steps(Resolution resolution) {
   return Scene(std::move(scene));
 }
 
-/// Smallest p-value over pixels of "both have the same mean", Student's t over passes.
+/// Smallest p-value over pixels of "the method has the mean of gathering from every VPL", Student's t over passes.
 double smallest_p_value(const Scene& scene, const Method& method, std::uint32_t passes) {
   const RenderSettings settings{.seed = 11, .max_depth = 5, .components = {.emission = false, .direct = false}};
-  const Method every{"every VPL", "vpl", {{"vpl/light_paths", 40.0}}};
+  Method every{"every VPL", "vpl", {}};
+  for (const auto& [name, value] : method.parameters)
+    if (name.starts_with("vpl/")) every.parameters[name] = value;
   const auto a = method.make(), b = every.make();
   a->prepare(scene, settings), b->prepare(scene, settings);
   const Resolution resolution = scene.camera().resolution();
@@ -75,6 +77,15 @@ TEST(TileGather, NoReceiverOfATileIsShortOfLight) {
   const Scene scene = poles_and_steps({40, 28});
   for (const double size : {7.0, 16.0})
     EXPECT_GT(smallest_p_value(scene, tile_method(0.1, 0.2, size), 400), sidak(0.001, 2 * 40 * 28)) << size;
+}
+
+// The same of vertices behind rays, which gather from the tile's candidates: with a small bound most light comes by
+// them. Where every VPL is gathered from, paths go on there instead.
+TEST(TileGather, NoVertexBehindARayIsShortOfLight) {
+  const Scene scene = poles_and_steps({40, 28});
+  Method method = tile_method(0.1, 0.2, 7);
+  method.parameters["vpl/bound"] = 0.3;
+  EXPECT_GT(smallest_p_value(scene, method, 400), sidak(0.001, 40 * 28));
 }
 
 TEST(TileGather, ALawOfRepresentativesAloneIsSeenToFail) {

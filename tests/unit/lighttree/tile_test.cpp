@@ -89,6 +89,34 @@ TEST(Comb, LawIsPositiveWhereverAVplLightsAReceiver) {
   EXPECT_GT(lit, 1000u);
 }
 
+TEST(Comb, LawIsPositiveWhereverAVplLightsAPointWithinReach) {
+  TestRandom random(7);
+  constexpr float k_reach = 0.8f;
+  std::size_t lit = 0, lit_there_only = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const bool glossy = round % 2 == 0;
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(8), 1, glossy));
+    const Tile tile = random_tile(random, 1 + random.below(3), false);
+    const float floor = round % 5 == 0 ? 0 : 0.2f;
+    const TileLaw law(tile.receivers, {.cosine_floor = floor, .bound = 0.7f, .reach = k_reach});
+    const TileLaw law_without(tile.receivers, {.defensive = 0.1f, .cosine_floor = 0.2f, .bound = 0.7f});
+    alignas(32) LightNode::Lanes weights, weights_without;
+    law.weigh(tree, 0, weights), law_without.weigh(tree, 0, weights_without);
+    ShadedPoint y = random_gather_point(random, 1, glossy);
+    const Vec3 step = y.wo;  // any direction
+    y.point.position = tile.points[0].point.position + 0.999f * k_reach * random.get1() * step;
+    for (int lane = 0; lane < LightNode::k_width; ++lane) {
+      if (!tree.nodes[0].has_child(lane)) continue;
+      if (is_black(unshadowed(y, tree, tree.nodes[0].vpl(lane), 0.7f))) continue;
+      ++lit;
+      lit_there_only += weights_without[lane] == 0;
+      ASSERT_GT(weights[lane], 0);
+    }
+  }
+  EXPECT_GT(lit, 1000u);
+  EXPECT_GT(lit_there_only, 100u);
+}
+
 TEST(Comb, WeightsDoNotDependOnTheUnitOfLength) {
   TestRandom random(3);
   constexpr float k_scale = 1024;
@@ -96,9 +124,9 @@ TEST(Comb, WeightsDoNotDependOnTheUnitOfLength) {
   VplSet large = set;
   for (Vpl& vpl : large.vpls) vpl.position = Point3() + k_scale * from_origin(vpl.position);
   Tile tile = random_tile(random, 30, true);
-  const TileLaw law(tile.receivers, {.bound = 2});
+  const TileLaw law(tile.receivers, {.bound = 2, .reach = 0.3f});
   for (Receiver& r : tile.receivers) r.position = Point3() + k_scale * from_origin(r.position);
-  const TileLaw large_law(tile.receivers, {.bound = 2 / (k_scale * k_scale)});
+  const TileLaw large_law(tile.receivers, {.bound = 2 / (k_scale * k_scale), .reach = 0.3f * k_scale});
   alignas(32) LightNode::Lanes a, b;
   law.weigh(pairs(set), 0, a);
   large_law.weigh(pairs(large), 0, b);
