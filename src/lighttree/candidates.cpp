@@ -37,19 +37,19 @@ void CandidateSet::assign(const VplSet& set, std::span<const Candidate> candidat
 
 void CandidateSet::put(const VplSet& set, std::size_t index) {
   const Vpl& vpl = set.vpls[vpls_[index]];
-  const std::size_t lane = index % k_lanes;
+  const auto [group_index, lane] = place_of(index);
   const auto put_vec = [&](FloatV(&v)[3], Vec3 value) {
     v[0][lane] = value.x, v[1][lane] = value.y, v[2][lane] = value.z;
   };
-  Group& group = groups_[index / k_lanes];
+  Group& group = groups_[group_index];
   put_vec(group.position, from_origin(vpl.position));
   put_vec(group.geometric, vpl.geometric_normal.decode());
   const Rgb flux = weights_[index] * vpl.flux;
   put_vec(group.flux, {flux.r, flux.g, flux.b});
   group.inverse_pi_f_y[lane] = vpl.is_lambert() ? 1 / vpl.max_pi_f : 1;
-  vertices_[index / k_lanes][lane] = static_cast<float>(vpl.vertex);
+  vertices_[group_index][lane] = static_cast<float>(vpl.vertex);
   if (simple_) return;
-  Details& details = details_[index / k_lanes];
+  Details& details = details_[group_index];
   const Vec3 shading_normal = vpl.shading_normal.decode();
   put_vec(details.shading, set.transmits(vpl) ? Vec3() : shading_normal);
   const ValueBound bound = vpl.is_lambert() ? ValueBound{1, {}} : set.surfaces[vpl.surface].bound;
@@ -132,7 +132,7 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
 }
 
 float CandidateSet::target(std::uint32_t candidate) const {
-  const std::size_t group = candidate / k_lanes, lane = candidate % k_lanes;
+  const auto [group, lane] = place_of(candidate);
   return summed_[group][lane] - (group > 0 ? summed_[group - 1][lane] : 0);
 }
 
@@ -156,7 +156,7 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
       group += summed_[group + half - 1][lane] > within ? 0 : half;
       left -= half;
     }
-    const auto candidate = static_cast<std::uint32_t>(group * k_lanes + lane);
+    const auto candidate = static_cast<std::uint32_t>(lane * summed_.size() + group);
     const double probability = static_cast<double>(target(candidate)) / total;
     if (!(probability > 0)) continue;  // rounding at a lane's end
     if (!draws.empty() && draws.back().candidate == candidate)
@@ -167,7 +167,7 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
 }
 
 Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const {
-  const std::size_t group = candidate / k_lanes, lane = candidate % k_lanes;
+  const auto [group, lane] = place_of(candidate);
   const auto& flux = groups_[group].flux;
   return receiver.diffuse * Rgb(flux[0][lane], flux[1][lane], flux[2][lane]) *
          (k_inv_pi * k_inv_pi * geometry_[group][lane]);

@@ -39,7 +39,8 @@ class CandidateSet {
 
   /// Finds the target of every candidate; choose() draws in proportion.
   void evaluate(const CandidateReceiver& receiver, float bound);
-  /// Systematic resampling of `samples` draws with `u` in [0,1). Empty if no candidate contributes.
+  /// Systematic resampling of `samples` draws with `u` in [0,1), in the order in which the candidates were assigned:
+  /// draws are stratified over what is near together there. Empty if no candidate contributes.
   void choose(int samples, double u, std::vector<CandidateDraw>& draws) const;
 
   std::uint32_t vpl(std::uint32_t candidate) const { return vpls_[candidate]; }
@@ -64,6 +65,11 @@ class CandidateSet {
     FloatV broad, peak, tail, alpha2;  ///< of pi f_c(y), where it is not Lambert's; else broad is 1
     FloatV mirrored[3];
   };
+  /// Candidates fill one lane after the other, so that choose() goes through them in the tree's order.
+  struct Place {
+    std::size_t group, lane;
+  };
+  Place place_of(std::size_t candidate) const { return {candidate % groups_.size(), candidate / groups_.size()}; }
   void put(const VplSet& set, std::size_t index);
   void evaluate_lambert(const CandidateReceiver& receiver, float bound);
   void evaluate_any(const CandidateReceiver& receiver, float bound);
