@@ -15,6 +15,7 @@ void VplSource::describe(ParameterVisitor& v) {
 
 void VplSource::prepare(const Scene& scene, const RenderSettings& settings) {
   scene_ = &scene, settings_ = settings;
+  has_set_ = false;
   if (parameters_.bounding == Bounding::none) return;
   bound_ = static_cast<float>(parameters_.bound);
   if (bound_ > 0) return;
