@@ -166,7 +166,7 @@ TEST_F(BadInput, MoreLightPathsThanFit) {
     <bsdf type="diffuse"><rgb name="reflectance" value="0.9"/></bsdf></shape></scene>)"));
   folder_.write("large.json", R"({ "scenes": [{"file": "closed.xml"}], "max_depth": 100, "budget": {"spp": 1},
     "methods": ["spt", {"name": "Large", "integrator": "gradslc", "vpl": {"light_paths": 1000000000}}] })");
-  const std::vector<std::string> expected = {"closed: method \"Large\": 1000000000 light paths", " would fit"};
+  const std::vector<std::string> expected = {"closed: error: method \"Large\": 1000000000 light paths", " would fit"};
   expect_refusal({"run", "large.json"}, expected);
   expect_refusal({"run", "large.json", "--out", "new/folder"}, expected);
   expect_refusal(
