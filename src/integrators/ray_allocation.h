@@ -14,8 +14,9 @@ struct RayAllocationParameters {
 };
 
 inline void describe(ParameterVisitor& v, RayAllocationParameters& p) {
-  v.integer("pilot_passes", p.pilot_passes, {0, 1000}, "passes",
-            "first passes, with one ray a gather, from which the number of rays in later ones is found; 0: always one");
+  v.integer(
+      "pilot_passes", p.pilot_passes, {0, 1000}, "passes",
+      "first passes, with one ray a gather, from which the number of rays in later ones is found; below 2: always one");
   v.real("pass_cost", p.pass_cost, {1e-3, 1e3}, "rays", "time of a whole pass without these rays, in their time");
   v.real("fewest", p.fewest, {1e-3, 1}, "rays", "least mean number of rays of a gather");
   v.real("most", p.most, {1, 1e3}, "rays", "most rays of a gather");
@@ -24,7 +25,8 @@ inline void describe(ParameterVisitor& v, RayAllocationParameters& p) {
 /// Finds the numbers that give the least error for the time: a pass of relative variance V and cost C in units of rays,
 /// whose rays of relative second moment m in a cell of 8 x 8 pixels are sent n times, has an error x time of
 /// (V + mean(m / n)) (C + mean(n)), least for n = sqrt(m C / V) cell by cell. Relative: to I^2 + 0.01 mean(I)^2. The
-/// numbers are a function of the pilot passes alone, so that any later pass can be rendered again by itself.
+/// numbers are a function of the pilot passes alone, so that any later pass can be rendered again by itself. One ray
+/// where pilots show no variance, as one pass alone never does.
 class RayAllocation {
  public:
   /// At least one pilot pass.

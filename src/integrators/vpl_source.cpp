@@ -27,6 +27,7 @@ void VplSource::describe(ParameterVisitor& v) {
 
 void VplSource::prepare(const Scene& scene, const RenderSettings& settings) {
   scene_ = &scene, settings_ = settings;
+  has_set_ = false;
   LightTracingSettings pilot_tracing = tracing_settings(scene, settings, SeedPurpose::pilot, 0, 0);
   has_vpls_on_emitters_ = pilot_tracing.on_emitters;
   if (parameters_.bounding == Bounding::none) return;

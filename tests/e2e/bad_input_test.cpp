@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -155,6 +156,28 @@ TEST_F(BadInput, AFolderThatMayNotBeWrittenIn) {
   folder_.write("good.json", std::string("{") + k_scenes + k_methods + k_budget + "}");
   expect_refusal({"render", "scene.xml", "-o", "/proc/a.exr"}, {"/proc", "cannot be written in"});
   expect_refusal({"run", "good.json", "--out", "/proc/results"}, {"/proc", "cannot be written in"});
+}
+
+// A closed box of albedo 0.9 leaves some ten VPLs a light path: a billion paths leave more than can be numbered,
+// whatever memory the machine has.
+TEST_F(BadInput, MoreLightPathsThanFit) {
+  folder_.write("closed.xml", scene_with("</scene>", R"(<shape type="cube"><boolean name="flip_normals" value="true"/>
+    <transform name="to_world"><scale value="5"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.9"/></bsdf></shape></scene>)"));
+  folder_.write("large.json", R"({ "scenes": [{"file": "closed.xml"}], "max_depth": 100, "budget": {"spp": 1},
+    "methods": ["spt", {"name": "Large", "integrator": "gradslc", "vpl": {"light_paths": 1000000000}}] })");
+  const std::vector<std::string> expected = {"closed: error: method \"Large\": 1000000000 light paths", " would fit"};
+  expect_refusal({"run", "large.json"}, expected);
+  expect_refusal({"run", "large.json", "--out", "new/folder"}, expected);
+  expect_refusal(
+      {"render", "closed.xml", "--method", "slc", "--set", "vpl.light_paths=1000000000", "--max-depth", "100"},
+      {"1000000000 light paths", " would fit"});
+
+  const std::string errors = run({"run", "large.json"}).errors;
+  std::smatch number;
+  ASSERT_TRUE(std::regex_search(errors, number, std::regex("; ([0-9]+) would fit"))) << errors;
+  EXPECT_GT(std::stod(number[1]), 1e3);
+  EXPECT_LT(std::stod(number[1]), 5e8);
 }
 
 TEST_F(BadInput, Images) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -148,9 +149,26 @@ TEST_F(Commands, RunWritesResultsAndReportRepeatsTheTables) {
   EXPECT_TRUE(std::filesystem::exists(results / "report.md"));
 }
 
+TEST_F(Commands, DryRunPrintsThePlanAndRendersNothing) {
+  folder_.write("plan.json", R"({ "scenes": [{"file": "scene.xml"}], "budget": {"spp": 1},
+    "methods": ["spt", {"name": "Small", "integrator": "slc", "vpl": {"light_paths": 5000}},
+                {"name": "Large", "integrator": "gradslc", "vpl": {"light_paths": 1000000000}}] })");
+  const std::vector<std::string> before = files();
+  const Outcome outcome = run({"run", "plan.json", "--dry-run"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "");
+  EXPECT_EQ(files(), before);
+  const std::regex plan(
+      "scene: spt: 0 light paths, 0 VPLs, 0 bytes\n"
+      "scene: Small: 5000 light paths, [0-9.e+]+ VPLs, [0-9.]+ [KM]iB\n"
+      "scene: Large: 1000000000 light paths, [0-9.e+]+ VPLs, [0-9.]+ [GT]iB\n");
+  EXPECT_TRUE(std::regex_match(outcome.output, plan)) << outcome.output;
+}
+
 TEST_F(Commands, AnyNumberOfThreadsGivesTheSameBits) {
   for (const char* method : {"spt", R"({"integrator": "vpl", "vpl": {"light_paths": 40}})",
                              R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
+                             R"({"integrator": "slc", "gather": "tile", "compensation": {"pilot_passes": 2}})",
                              R"({"integrator": "gradslc", "shift": "reconnection", "reconstruction": "weighted"})",
                              R"({"integrator": "gradslc", "shift": "random_replay", "reconstruction": "l2"})"}) {
     std::vector<std::string> images;

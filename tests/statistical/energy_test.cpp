@@ -13,6 +13,7 @@
 
 #include "scene/loaders/loader.h"
 #include "support/render/method.h"
+#include "vpl/vpl_parameters.h"
 
 namespace gradslc {
 namespace {
@@ -22,6 +23,7 @@ constexpr int k_max_depth = 6;
 
 struct EnergyScene {
   std::string name, file;
+  double connectable_roughness = VplParameters().connectable_roughness;
   bool is_real() const { return file.starts_with("scene_"); }  ///< one of the report's
   std::string label() const { return (is_real() ? "real " : "") + name; }
   std::filesystem::path path() const {
@@ -32,34 +34,17 @@ struct EnergyScene {
 
 void PrintTo(const EnergyScene& scene, std::ostream* stream) { *stream << scene.label(); }
 
-/// Lobes sharper than that are followed by paths. At the default of 0.1, descent meets rough metals' peaks so rarely
-/// that the scatter of 24 runs does not show it: a t-test would raise false alarms (glossy boxes are tested at 0.1).
-constexpr double k_connectable_roughness = 0.35;
-
-const std::vector<Method>& methods() {
-  static const std::vector<Method> k_methods = {
-      {"vpl",
-       "vpl",
-       {{"vpl/light_paths", 300.0},
-        {"vpl/connectable_roughness", k_connectable_roughness},
-        {"selection", "power"},
-        {"samples", 20.0}}},
-      {"slc", "slc", {{"vpl/light_paths", 1000.0}, {"vpl/connectable_roughness", k_connectable_roughness}}},
-      {"slc tile",
-       "slc",
-       {{"gather", "tile"}, {"vpl/light_paths", 1000.0}, {"vpl/connectable_roughness", k_connectable_roughness}}},
-      {"gradslc reconnection",
-       "gradslc",
-       {{"vpl/light_paths", 1000.0},
-        {"vpl/connectable_roughness", k_connectable_roughness},
-        {"shift", "reconnection"}}},
-      {"gradslc random replay",
-       "gradslc",
-       {{"vpl/light_paths", 1000.0},
-        {"vpl/connectable_roughness", k_connectable_roughness},
-        {"shift", "random_replay"}}},
+/// Lobes sharper than `connectable_roughness` are followed by paths.
+std::vector<Method> methods(double connectable_roughness) {
+  std::vector<Method> made = {
+      {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
+      {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
+      {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 1000.0}}},
+      {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "reconnection"}}},
+      {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
   };
-  return k_methods;
+  for (Method& method : made) method.parameters["vpl/connectable_roughness"] = connectable_roughness;
+  return made;
 }
 
 /// Name of the plug-in that scatters: "roughplastic" of "bumpmap twosided roughplastic".
@@ -95,31 +80,33 @@ constexpr Quantity k_compared[] = {Quantity::image, Quantity::direct, Quantity::
                                    Quantity::specular, Quantity::prefix};
 
 class Energy : public testing::TestWithParam<EnergyScene> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, Energy,
-                         testing::Values(EnergyScene{"cornell-box", "scene.xml"}, EnergyScene{"staircase", "scene.xml"},
-                                         EnergyScene{"bathroom", "scene.xml"}, EnergyScene{"veranda", "scene.xml"},
-                                         EnergyScene{"lamp", "scene.xml"}, EnergyScene{"cornell-box", "scene_v0.6.xml"},
-                                         EnergyScene{"staircase", "scene_v0.6.xml"},
-                                         EnergyScene{"bathroom", "scene_v0.6.xml"},
-                                         EnergyScene{"house", "scene_v0.6.xml"}, EnergyScene{"lamp", "scene_v0.6.xml"}),
-                         [](const auto& entry) {
-                           std::string name =
-                               (entry.param.file.starts_with("scene_") ? "real_" : "our_") + entry.param.name;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Energy,
+    testing::Values(EnergyScene{"cornell-box", "scene.xml"}, EnergyScene{"staircase", "scene.xml"},
+                    EnergyScene{"bathroom", "scene.xml"}, EnergyScene{"veranda", "scene.xml"},
+                    // At the default, VPLs' light from rough metal comes in so few samples that the scatter of 24 runs
+                    // does not show it: `slc` has 0.83 +- 0.04 of spt's indirect light on diffuse surfaces, and
+                    // 1.03 +- 0.03 in twelve times as many passes.
+                    EnergyScene{"lamp", "scene.xml", 0.35}, EnergyScene{"cornell-box", "scene_v0.6.xml"},
+                    EnergyScene{"staircase", "scene_v0.6.xml"}, EnergyScene{"bathroom", "scene_v0.6.xml"},
+                    EnergyScene{"house", "scene_v0.6.xml"}, EnergyScene{"lamp", "scene_v0.6.xml"}),
+    [](const auto& entry) {
+      std::string name = (entry.param.file.starts_with("scene_") ? "real_" : "our_") + entry.param.name;
+      std::erase(name, '-');
+      return name;
+    });
 
 /// Compares every method with spt: each part of the image per material, and the image per block of 16 x 16 pixels.
-void expect_energy(const std::string& label, const Scene& scene, const std::string& light,
-                   const Components& components) {
+void expect_energy(const EnergyScene& of, const Scene& scene, const std::string& light, const Components& components) {
   const MaterialClasses classes = classify(scene);
   const Regions partitions[] = {classes.regions, block_regions(scene.camera().resolution(), 16)};
   const RenderSettings settings{.max_depth = k_max_depth, .components = components};
-  const Method path_tracing{"spt", "spt", {{"connectable_roughness", k_connectable_roughness}}};
+  const Method path_tracing{"spt", "spt", {{"connectable_roughness", of.connectable_roughness}}};
+  const std::vector<Method> tested = methods(of.connectable_roughness);
   const auto reference =
       region_moments(path_tracing, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
-  const std::size_t tests = methods().size() * (std::size(k_compared) * partitions[0].count + partitions[1].count) * 2;
-  for (const Method& method : methods()) {
+  const std::size_t tests = tested.size() * (std::size(k_compared) * partitions[0].count + partitions[1].count) * 2;
+  for (const Method& method : tested) {
     const auto moments = region_moments(method, scene, settings, partitions, {.runs = 24, .passes = 4, .seed = 22});
     for (std::size_t k = 0; k < std::size(partitions); ++k)
       for (const Quantity quantity : k_compared) {
@@ -135,8 +122,8 @@ void expect_energy(const std::string& label, const Scene& scene, const std::stri
       if (spt.mean() == 0 || ours.mean() == 0) continue;
       const double ratio = ours.mean() / spt.mean();
       const double error = std::hypot(ours.standard_error() / ours.mean(), spt.standard_error() / spt.mean()) * ratio;
-      fmt::print("| {} | {} | {} | {} | {} | {:.4f} +- {:.4f} |\n", label, light, classes.names[r], classes.pixels[r],
-                 method.label, ratio, error);
+      fmt::print("| {} | {} | {} | {} | {} | {:.4f} +- {:.4f} |\n", of.label(), light, classes.names[r],
+                 classes.pixels[r], method.label, ratio, error);
     }
   }
 }
@@ -145,8 +132,8 @@ TEST_P(Energy, IsPathTracingsOnEveryMaterial) {
   if (!std::filesystem::exists(GetParam().path()))
     GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
   const Scene scene(load_scene(GetParam().path().string(), {.width = 32, .height = 32}));
-  expect_energy(GetParam().label(), scene, "all", {});
-  expect_energy(GetParam().label(), scene, "indirect", {.emission = false, .direct = false});
+  expect_energy(GetParam(), scene, "all", {});
+  expect_energy(GetParam(), scene, "indirect", {.emission = false, .direct = false});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "expect_unbiased.h"
@@ -94,6 +95,66 @@ TEST(Unbiased, RealCornellBox) {
 TEST(Unbiased, IndependentSampler) {
   expect_unbiased(test_box(k_resolution, {.mirror = true}), {.max_depth = 4, .sampler = SamplerKind::independent},
                   {lightcut_methods()[1], lightcut_methods()[5]});
+}
+
+// Passes after the pilots send fewer rays than one where they bring little and more where they bring much: most passes
+// of a run are such here, and a small bound leaves much for the rays. The first method has cells with means below 0.6
+// and others above 1.7; the second's are all 0.3, rounded to 0 or 1 at random, the third's 2.5, rounded to 2 or 3.
+const std::vector<Method>& adapted_methods() {
+  const auto tile = [](const std::string& label, double pass_cost, double fewest, double most) {
+    return Method{label,
+                  "slc",
+                  {{"gather", "tile"},
+                   {"tile/candidates", 64.0},
+                   {"vpl/light_paths", 300.0},
+                   {"vpl/bound", 0.3},
+                   {"compensation/pilot_passes", 2.0},
+                   {"compensation/pass_cost", pass_cost},
+                   {"compensation/fewest", fewest},
+                   {"compensation/most", most}}};
+  };
+  static const std::vector<Method> k_methods = {tile("slc tile, adapted rays", 1, 0.1, 8),
+                                                tile("slc tile, fewer rays", 1e-3, 0.3, 1),
+                                                tile("slc tile, more rays", 1e3, 1, 2.5)};
+  return k_methods;
+}
+constexpr UnbiasedOptions k_adapted_options{.methods = {.runs = 32, .passes = 12, .block = 8, .seed = 5}};
+
+TEST(Unbiased, AdaptedRaysInTheDiffuseBox) {
+  expect_unbiased(test_box(k_resolution), {.max_depth = 5, .components = {.emission = false, .direct = false}},
+                  adapted_methods(), k_adapted_options);
+}
+TEST(Unbiased, AdaptedRaysInTheMirrorBox) {
+  expect_unbiased(test_box(k_resolution, {.mirror = true}), {.max_depth = 5}, adapted_methods(), k_adapted_options);
+}
+
+TEST(Unbiased, FullCutsOfLightcuts) {
+  expect_unbiased(
+      test_box(k_resolution, {.mirror = true}), {.max_depth = 5},
+      {{"lightcuts", "lightcuts", {{"error_ratio", 0.0}, {"max_cut_size", 1e6}, {"vpl/light_paths", 40.0}}}});
+}
+
+// Lightcuts are biased, by no more than the ratio: each cluster's error is below it, and together they are of either
+// sign. False-alarm rate below 0.1 % over both scenes.
+TEST(Unbiased, LightcutsAreWithinTheirErrorRatio) {
+  constexpr double k_ratio = 0.02;
+  const Method lightcuts{"lightcuts", "lightcuts", {{"error_ratio", k_ratio}, {"vpl/light_paths", 100.0}}};
+  const RenderSettings settings{.max_depth = 5};
+  for (const bool glossy : {false, true}) {
+    const Scene scene = glossy ? glossy_box(k_resolution) : test_box(k_resolution, {.mirror = true});
+    const auto ours = block_moments(lightcuts, scene, settings, {.runs = 32, .passes = 2, .block = 8, .seed = 5})
+                          .blocks.at(Quantity::image);
+    const auto truth =
+        block_moments({"spt", "spt", {}}, scene, settings, k_reference_options).blocks.at(Quantity::image);
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+      const double beyond = std::abs(ours[i].mean() - truth[i].mean()) - k_ratio * truth[i].mean();
+      const double error = std::hypot(ours[i].standard_error(), truth[i].standard_error());
+      if (beyond > 0) {
+        EXPECT_GT(normal_p_value(beyond / error), sidak(0.001, 2 * ours.size()))
+            << i << ": " << ours[i].mean() << " where spt has " << truth[i].mean();
+      }
+    }
+  }
 }
 
 TEST(Unbiased, SpecularPartIsThere) {  // a control of the test above: caustics and mirror images carry energy

@@ -1,5 +1,7 @@
 #include "support/render/scenes.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
 #include <string>
 #include <utility>
@@ -18,10 +20,6 @@ void append_quad(TriangleMesh& mesh, Point3 corner, Vec3 u, Vec3 v) {
 }
 
 constexpr const char* k_glossy_box = R"(
-  <sensor type="perspective">
-    <float name="fov" value="42"/>
-    <transform name="to_world"><lookat origin="0, 0, -3.6" target="0, 0, 0" up="0, 1, 0"/></transform>
-  </sensor>
   <shape type="rectangle">
     <transform name="to_world"><rotate x="1" angle="-90"/><translate y="-1"/></transform>
     <bsdf type="roughplastic">
@@ -240,8 +238,11 @@ Scene partitioned_box(Resolution resolution, const std::string& partition) {
   return Scene(load_scene_text(text, "partitioned_box.xml", {.width = resolution.width, .height = resolution.height}));
 }
 
-Scene glossy_box(Resolution resolution, GlossyLight light) {
-  const std::string text = "<scene version=\"3.0.0\">" + std::string(k_glossy_box) + lights_of(light) + "</scene>";
+Scene glossy_box(Resolution resolution, GlossyLight light, float scale) {
+  const std::string sensor = fmt::format(R"(<sensor type="perspective"><float name="fov" value="42"/>
+    <transform name="to_world"><lookat origin="0, 0, {}" target="0, 0, 0" up="0, 1, 0"/></transform></sensor>)",
+                                         -3.6 * static_cast<double>(scale));
+  const std::string text = "<scene version=\"3.0.0\">" + sensor + k_glossy_box + lights_of(light) + "</scene>";
   SceneDescription d =
       load_scene_text(text, "glossy_box.xml", {.width = resolution.width, .height = resolution.height});
   TriangleMesh board = quad({-0.2f, 0.1f, 0.5f}, {0.6f, 0, 0.1f}, {0, 0.6f, 0.2f}, 0);
@@ -251,6 +252,8 @@ Scene glossy_box(Resolution resolution, GlossyLight light) {
   for (const Vec3 n : {Vec3{-0.9f, 0, -1}, Vec3{0.9f, 0.4f, -1}, Vec3{0.5f, 0.9f, -1}, Vec3{-0.5f, 0.5f, -1}})
     board.normals.push_back(as_normal(normalize(n)));
   d.meshes.push_back(board);
+  for (TriangleMesh& mesh : d.meshes)
+    for (Point3& position : mesh.positions) position = scaled(position, scale);
   return Scene(std::move(d));
 }
 

@@ -49,6 +49,7 @@ enum class GlossyLight : std::uint8_t {
   sky,    ///< an environment above the open box, and parallel light
   points  ///< a point and a spot light
 };
-Scene glossy_box(Resolution resolution, GlossyLight light = GlossyLight::lamp);
+/// With `scale`, points keep their intensity, and so light less.
+Scene glossy_box(Resolution resolution, GlossyLight light = GlossyLight::lamp, float scale = 1);
 
 }  // namespace gradslc

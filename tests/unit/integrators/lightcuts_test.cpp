@@ -52,7 +52,7 @@ Errors errors_of(const RgbImage& estimate, const RgbImage& exact) {
 // they are some root of the cut's size times as large.
 TEST(Lightcuts, ErrorIsWhatTheRatioAllowsAndFallsWithIt) {
   for (const bool glossy : {false, true}) {
-    const Scene scene = glossy ? glossy_box({32, 32}) : test_box({32, 32}, {.mirror = true});
+    const Scene scene = glossy ? glossy_box({24, 24}) : test_box({24, 24}, {.mirror = true});
     const RgbImage exact = render("vpl", {}, scene).vpl;
     double error_before = 1, size_before = 0;
     for (const double ratio : {0.2, 0.05, 0.02, 0.005}) {

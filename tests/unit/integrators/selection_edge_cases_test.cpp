@@ -42,7 +42,7 @@ struct OddSet {
 std::vector<OddSet> odd_sets(Point3 receiver) {
   TestRandom random(1);
   std::vector<OddSet> sets = {{"none", {}}};
-  for (const std::size_t count : {1u, 2u, 3u, 9u, 65u})  // 2^k + 1: the last node of a level has one child
+  for (const std::size_t count : {1u, 2u, 3u, 9u, 65u, 513u})  // 2^k + 1: the last node of a level has one child
     sets.push_back({std::to_string(count), random_vpls(random, count, 0.8f)});
   VplSet some = random_vpls(random, 17, 0.8f);
   const auto changed = [&](const std::string& name, const std::function<void(Vpl&)>& change) {
@@ -54,8 +54,12 @@ std::vector<OddSet> odd_sets(Point3 receiver) {
   changed("black", [](Vpl& vpl) { vpl.flux = Rgb(); });
   changed("around the receiver", [&](Vpl& vpl) { vpl.position = receiver + 0.3f * (vpl.position - Point3{}); });
   changed("one colour each", [&](Vpl& vpl) { vpl.flux = random.below(2) == 0 ? Rgb(1, 0, 0) : Rgb(0, 0, 1); });
-  for (std::size_t i = 1; i < some.vpls.size(); ++i) some.vpls[i].flux = Rgb();
-  sets.push_back({"all but one black", some});
+  VplSet one_lit = some;
+  for (std::size_t i = 1; i < some.vpls.size(); ++i) one_lit.vpls[i].flux = Rgb();
+  sets.push_back({"all but one black", one_lit});
+  VplSet same;
+  for (int i = 0; i < 65; ++i) same.vpls.push_back(some.vpls[0]);
+  sets.push_back({"one VPL 65 times", same});
   return sets;
 }
 
@@ -88,10 +92,11 @@ void for_each_odd_case(const std::function<void(const OddCase&)>& check) {
   const std::vector<PathVertex> points = gather_points(scene);
   ASSERT_EQ(points.size(), 3u);
   for (const OddSet& odd : odd_sets(points[0].point.position))
-    for (const float bound : {k_infinity, 2.0f}) {
-      SCOPED_TRACE(odd.name + (bound < k_infinity ? ", bounded" : ", not bounded"));
-      check({scene, builder_registry()[0].build(odd.set), points, bound});
-    }
+    for (const BuilderEntry& builder : builder_registry())
+      for (const float bound : {k_infinity, 2.0f}) {
+        SCOPED_TRACE(odd.name + ", " + builder.name + (bound < k_infinity ? ", bounded" : ", not bounded"));
+        check({scene, builder.build(odd.set), points, bound});
+      }
 }
 
 TEST(OddVplSets, FullCutsOfSlcAndLightcutsAreExact) {
@@ -111,10 +116,11 @@ TEST(OddVplSets, FullCutsOfSlcAndLightcutsAreExact) {
           c.tree, Representatives(c.tree, 1), receiver, c.bound, limits,
           [&](std::uint32_t vpl) { return c.contribution(x, c.tree.set.vpls[vpl]); }, cut);
       ASSERT_TRUE(is_finite(cut.total()));
-      if (limits.most_clusters > 1) {
-        EXPECT_NEAR(static_cast<double>(luminance(cut.total())), exact,
-                    (1e-5 + static_cast<double>(limits.error_ratio)) * exact);
-      }
+      if (limits.most_clusters == 1) continue;
+      // The ratio limits each cluster's error by itself; those of several are of either sign.
+      const double ratio =
+          static_cast<double>(limits.error_ratio) * std::sqrt(static_cast<double>(cut.clusters.size()));
+      EXPECT_NEAR(static_cast<double>(luminance(cut.total())), exact, (1e-5 + ratio) * exact);
     }
   });
 }
@@ -147,10 +153,10 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
   for_each_odd_case([&](const OddCase& c) {
     const std::vector<Receiver> receivers = c.receivers();
     CutSelector alone(c.tree, {.size = 3}, c.bound), shared(c.tree, {.size = 4, .error = 0.2f}, c.bound);
-    const TileParameters tile{.candidates = 16, .samples = 3};
-    TileGatherer gatherer(c.scene, c.tree, tile, c.bound);
+    const TileParameters tile{.candidates = 16, .samples = 3}, least{.candidates = 1, .samples = 1};
+    TileGatherer gatherer(c.scene, c.tree, tile, c.bound), by_one(c.scene, c.tree, least, c.bound);
     constexpr std::size_t k_points = 3;
-    Moments by_descent, by_shared_law[k_points], by_tile[k_points];
+    Moments by_descent, by_shared_law[k_points], by_tile[k_points], by_one_candidate;
     for (std::uint32_t sample = 0; sample < k_samples; ++sample) {
       PathContext path = context(c.scene, sample);
       const auto add = [](Moments& moments, Rgb value) {
@@ -162,6 +168,8 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
           gather_chosen(path, c.points[0], c.tree, alone.select({receivers.data(), 1}, path.random), c.bound));
       const auto chosen = shared.select(receivers, path.random);
       gatherer.begin_tile(receivers, path.random.get1_double(Use::tile_comb));
+      by_one.begin_tile(receivers, path.random.get1_double(Use::tile_comb));
+      add(by_one_candidate, by_one.gather(path, c.points[0], path.random.get1_double(Use::candidate_choice)));
       for (std::size_t i = 0; i < k_points; ++i) {
         add(by_shared_law[i], gather_chosen(path, c.points[i], c.tree, chosen, c.bound));
         add(by_tile[i], gatherer.gather(path, c.points[i], path.random.get1_double(Use::candidate_choice)));
@@ -169,12 +177,24 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
     }
     if (c.bound == k_infinity) return;
     means.add("descent", by_descent, c.exact(c.points[0]));
+    means.add("tile, one candidate", by_one_candidate, c.exact(c.points[0]));
     for (std::size_t i = 0; i < k_points; ++i) {
       means.add("shared law", by_shared_law[i], c.exact(c.points[i]));
       means.add("tile", by_tile[i], c.exact(c.points[i]));
     }
   });
   means.expect_right();
+}
+
+TEST(OddVplSets, ATileWithoutReceiversHasNoCandidates) {
+  for_each_odd_case([](const OddCase& c) {
+    const TileParameters tile{.candidates = 16, .samples = 3};
+    TileGatherer gatherer(c.scene, c.tree, tile, c.bound);
+    gatherer.begin_tile(c.receivers(), 0.5);
+    gatherer.begin_tile({}, 0.5);  // forgets the tile before
+    PathContext path = context(c.scene, 0);
+    EXPECT_EQ(gatherer.gather(path, c.points[0], 0.5), Rgb());
+  });
 }
 
 // The same through the integrators, where few light paths leave few VPLs.
@@ -214,7 +234,8 @@ TEST(CutSelector, IsUnbiasedOverADeepTree) {
   for (Vpl& vpl : set.vpls) vpl.flux *= std::exp(4 * random.get1() - 2);
   const LightTree tree = builder_registry()[0].build(std::move(set));
   constexpr float k_bound = 0.3f;
-  constexpr int k_receivers = 2, k_draws = 30000;
+  constexpr int k_receivers = 2, k_draws = 15000;
+  Moments moments;  // relative to the exact sum of their receiver
   for (int k = 0; k < k_receivers; ++k) {
     const ShadedPoint x = random_gather_point(random, 1.2f);
     const Receiver receiver = make_receiver({x, LobeSelection()});
@@ -225,18 +246,16 @@ TEST(CutSelector, IsUnbiasedOverADeepTree) {
       exact += contribution.back();
     }
     CutSelector selector(tree, {.size = 100}, k_bound);
-    Moments moments;
     for (std::uint32_t draw = 0; draw < k_draws; ++draw) {
       const SampleStream stream(SamplerKind::independent, 7, static_cast<std::uint64_t>(k), draw);
       double sum = 0;
       for (const ChosenVpl& chosen : selector.select({&receiver, 1}, stream))
         sum += contribution[chosen.vpl] * static_cast<double>(chosen.inverse_probability);
-      moments.add(sum);
+      moments.add(sum / exact);
     }
-    EXPECT_LT(moments.standard_error(), 1e-3 * exact);
-    // False-alarm rate 0.1 %.
-    EXPECT_GT(moments.p_value(exact), sidak(0.001, k_receivers)) << moments.mean() / exact - 1;
   }
+  EXPECT_LT(moments.standard_error(), 1e-3);
+  EXPECT_GT(moments.p_value(1), 0.001) << moments.mean();  // the false-alarm rate
 }
 
 }  // namespace

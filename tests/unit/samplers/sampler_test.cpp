@@ -83,6 +83,17 @@ TEST_P(EverySampler, NamesThatDifferGiveIndependentNumbers) {
        [&](std::uint64_t i) { return number(2 * i + 1); }},
       {"seed and stream exchanged", [this](std::uint64_t i) { return stream(i + 7, 5, i).get1_double(Use::lens); },
        [this](std::uint64_t i) { return stream(i, 5, i + 7).get1_double(Use::lens); }},
+      {"stream and its branch", number,
+       [this](std::uint64_t i) { return stream(i, 5).branch(0).get1_double(Use::lens); }},
+      {"branches", [this](std::uint64_t i) { return stream(i, 5).branch(0).get1_double(Use::lens); },
+       [this](std::uint64_t i) { return stream(i, 5).branch(1).get1_double(Use::lens); }},
+      {"branches' order", [this](std::uint64_t i) { return stream(i, 5).branch(0).branch(1).get1_double(Use::lens); },
+       [this](std::uint64_t i) { return stream(i, 5).branch(1).branch(0).get1_double(Use::lens); }},
+      {"branch and index", [this](std::uint64_t i) { return stream(i, 5).branch(1).get1_double(Use::lens); },
+       [this](std::uint64_t i) { return stream(i, 5).get1_double(Use::lens, 1); }},
+      {"branches of neighbouring streams",
+       [this](std::uint64_t i) { return stream(2 * i, 5).branch(1).get1_double(Use::lens); },
+       [this](std::uint64_t i) { return stream(2 * i + 1, 5).branch(0).get1_double(Use::lens); }},
       {"coordinates", [this](std::uint64_t i) { return stream(i, 5).get2(Use::lens).x; },
        [this](std::uint64_t i) { return stream(i, 5).get2(Use::lens).y; }},
   };
@@ -111,6 +122,30 @@ TEST_P(EverySampler, UsesArePairedAtRandomOverTheSamplesOfAStream) {
   EXPECT_GT(products.p_value(0), 1e-3);
   EXPECT_GT(products.variance() * 144 * samples, 0.8);
   EXPECT_LT(products.variance() * 144 * samples, 2);
+}
+
+// As many rays of one sample as there are branches: each number is uniform over them, and none comes twice.
+TEST_P(EverySampler, BranchesOfOneSampleAreUniform) {
+  constexpr int cells = 256;
+  std::vector<double> counts(cells);
+  std::set<double> numbers;
+  const SampleStream parent = stream(11, 5);
+  for (std::uint32_t i = 0; i < 1 << 14; ++i) {
+    const double u = parent.branch(i).get1_double(Use::compensation);
+    counts[cell(u, cells)] += 1;
+    numbers.insert(u);
+  }
+  EXPECT_GT(chi_square_uniform(counts).p_value, 1e-3);
+  EXPECT_GT(numbers.size(), (1u << 14) - 4);  // of 2^32: 0.03 pairs are expected
+}
+
+TEST_P(EverySampler, BranchesReplayTheSameBits) {
+  const SampleStream parent = stream(11, 5);
+  const double before = parent.get1_double(Use::lens);
+  const SampleStream branch = parent.branch(3);
+  EXPECT_EQ(parent.get1_double(Use::lens), before);
+  EXPECT_EQ(branch.get2(Use::direction, 2), stream(11, 5).branch(3).get2(Use::direction, 2));
+  EXPECT_EQ(branch.branch(0).get1(Use::lobe), stream(11, 5).branch(3).branch(0).get1(Use::lobe));
 }
 
 TEST_P(EverySampler, ReplaysTheSameBitsInAnyOrder) {
@@ -145,6 +180,8 @@ TEST(KnownAnswers, AreTheSameBitsOnEveryPlatform) {
   EXPECT_EQ(independent.get1_double(Use::pixel) * 0x1p32, 3684279574);
   const SampleStream sobol(SamplerKind::sobol, 1, 2, 3);
   EXPECT_EQ(sobol.get1_double(Use::pixel) * 0x1p32, 2931305891);
+  EXPECT_EQ(independent.branch(4).get1_double(Use::pixel) * 0x1p32, 3789421224);
+  EXPECT_EQ(sobol.branch(4).get1_double(Use::pixel) * 0x1p32, 849752513);
   EXPECT_EQ(digest(SamplerKind::independent), 6321706174814132780u);
   EXPECT_EQ(digest(SamplerKind::sobol), 10184492956760142766u);
 }
@@ -167,6 +204,16 @@ std::vector<Vec2> points(SamplerKind kind, std::uint64_t stream, std::uint32_t f
   for (std::uint32_t k = first; k < first + count; ++k)
     result.push_back(SampleStream(kind, k_seed, stream, k).get2(use, 1));
   return result;
+}
+
+// A ray that every sample sends is stratified over the samples, as numbers of the stream itself are.
+TEST(SobolSampler, PairsOfABranchAreA02Sequence) {
+  for (std::uint32_t branch = 0; branch < 20; ++branch) {
+    std::vector<Vec2> of_branch;
+    for (std::uint32_t k = 0; k < 256; ++k)
+      of_branch.push_back(SampleStream(SamplerKind::sobol, k_seed, 1, k).branch(branch).get2(Use::compensation, 1));
+    EXPECT_TRUE(one_point_per_elementary_interval(of_branch)) << branch;
+  }
 }
 
 TEST(SobolSampler, PairsAreA02Sequence) {
