@@ -64,6 +64,7 @@ void add_compensation(PathContext& context, const CameraPrefix& prefix, const Ga
   while (const auto hit = next_hit(context, ray, origin, edges, max_depth, throughput, radiance)) {
     if (!goes_on && !context.scene.has_crossings()) return;
     const PathVertex y = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (context.log) log_vertex(context, y, throughput.total());
     if (passes_on(context, y, throughput, ray, origin)) continue;
     if (goes_on) add_reflected(context, x, y, gathered, gather, throughput, radiance);
     return;
@@ -88,23 +89,45 @@ GatherSettings make_gather_settings(const Scene& scene, const VplParameters& par
 
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                           PartValues& radiance, float mean_rays) {
+  if (context.log) context.log->begin_gather(prefix.throughput);
   add_next_event(context, *prefix.gather, context.lobes.only_connectable(), context.settings.max_depth,
                  LabelledThroughput::camera_path(prefix.throughput), nullptr, radiance);
   PartValues brought;
   if (mean_rays == 1) {
+    if (context.log) context.log->begin_compensation_ray(0, 1);
     add_compensation(context, prefix, gather, brought);
   } else {
     const auto count = static_cast<std::uint32_t>(mean_rays + context.random.get1(Use::ray_count));
     const SampleStream random = context.random;
     for (std::uint32_t ray = 0; ray < count; ++ray) {
       context.random = random.branch(ray);
+      if (context.log) context.log->begin_compensation_ray(ray, 1 / mean_rays);
       add_compensation(context, prefix, gather, brought);
     }
     context.random = random;
     brought *= 1 / mean_rays;
   }
+  if (context.log) context.log->end_compensation_rays();
   radiance += brought;
   return luminance(brought.total());
+}
+
+void log_connection(const PathContext& context, const PathVertex& x, const VplView& vpls, std::uint32_t vpl,
+                    float bound, Rgb unshadowed, Rgb transmittance, float weight,
+                    std::optional<float> candidate_weight) {
+  const Vpl& y = vpls[vpl];
+  const GatherPoint point{x, context.lobes};
+  const float bounded = luminance(unshadowed_contribution(point, vpls, y, bound));
+  context.log->add_vpl({.vpl = vpl,
+                        .vertex = y.vertex,
+                        .edges = connection_edges(x, y),
+                        .position = y.position,
+                        .distance = std::sqrt(distance_squared(x.point.position, y.position)),
+                        .unshadowed = unshadowed,
+                        .transmittance = transmittance,
+                        .bounded_weight = bounded / luminance(unshadowed_contribution(point, vpls, y, k_infinity)),
+                        .weight = weight,
+                        .candidate_weight = candidate_weight});
 }
 
 }  // namespace gradslc

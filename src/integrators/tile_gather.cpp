@@ -4,10 +4,12 @@ namespace gradslc {
 
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
+  tile_nodes_ = 0;
   if (!receivers.empty()) {
     const TileLaw law(receivers,
                       {.defensive = parameters_.defensive, .cosine_floor = parameters_.cosine_floor, .bound = bound_});
-    cost_.nodes += draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
+    tile_nodes_ = draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
+    cost_.nodes += tile_nodes_;
   }
   candidates_.assign(tree_.set, drawn_, parameters_.candidates);
   cost_.candidates += drawn_.size();
@@ -21,6 +23,7 @@ Rgb TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
   candidates_.evaluate(receiver, bound_);
   cost_.evaluations += candidates_.size();
   candidates_.choose(parameters_.samples, u, choice_);
+  if (context.log) context.log->add_selection(static_cast<float>(choice_.size()), 0);
   Rgb sum;
   for (const CandidateDraw& draw : choice_) {
     const Vpl& vpl = vpls_[candidates_.vpl(draw.candidate)];
@@ -31,8 +34,14 @@ Rgb TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
     if (is_black(contribution)) continue;
     const Rgb transmittance =
         connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    const auto drawn = static_cast<float>(draw.count / (parameters_.samples * draw.probability));
+    if (context.log) {
+      const float candidate_weight = candidates_.weight(draw.candidate);
+      log_connection(context, x, vpls_, candidates_.vpl(draw.candidate), bound_, contribution / candidate_weight,
+                     transmittance, candidate_weight * drawn, candidate_weight);
+    }
     if (is_black(transmittance)) continue;
-    sum += contribution * transmittance * static_cast<float>(draw.count / (parameters_.samples * draw.probability));
+    sum += contribution * transmittance * drawn;
   }
   return sum;
 }

@@ -43,6 +43,8 @@ class TileGatherer {
   /// Light from VPLs at x, which must be one of the tile's; `u` in [0,1).
   Rgb gather(PathContext& context, const PathVertex& x, double u);
   const TileCost& cost() const { return cost_; }
+  /// Nodes that were visited for the tile.
+  std::uint64_t tile_nodes() const { return tile_nodes_; }
 
  private:
   VplView vpls_;
@@ -53,6 +55,7 @@ class TileGatherer {
   CandidateSet candidates_;
   std::vector<CandidateDraw> choice_;
   TileCost cost_;
+  std::uint64_t tile_nodes_ = 0;
 };
 
 }  // namespace gradslc
