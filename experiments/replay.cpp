@@ -81,8 +81,9 @@ class Writer {
     return indent;
   }
   int write(const happening::VplConnection& c) {
-    line(1, fmt::format("VPL {} at {}, vertex {} of its light path: distance {:.6g}, {} edges", c.vpl,
-                        text_of(c.position), c.vertex, c.distance, c.edges));
+    line(1, fmt::format("VPL {} at {}, {}, vertex {} of its light path: distance {:.6g}, {} edges", c.vpl,
+                        text_of(c.position), c.material ? material(*c.material) : "diffuse", c.vertex, c.distance,
+                        c.edges));
     const std::string weight = c.candidate_weight
                                    ? fmt::format("{:.6g} (as candidate {:.6g}, as drawn {:.6g})", c.weight,
                                                  *c.candidate_weight, c.weight / *c.candidate_weight)

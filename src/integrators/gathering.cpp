@@ -118,16 +118,19 @@ void log_connection(const PathContext& context, const PathVertex& x, const VplVi
   const Vpl& y = vpls[vpl];
   const GatherPoint point{x, context.lobes};
   const float bounded = luminance(unshadowed_contribution(point, vpls, y, bound));
-  context.log->add_vpl({.vpl = vpl,
-                        .vertex = y.vertex,
-                        .edges = connection_edges(x, y),
-                        .position = y.position,
-                        .distance = std::sqrt(distance_squared(x.point.position, y.position)),
-                        .unshadowed = unshadowed,
-                        .transmittance = transmittance,
-                        .bounded_weight = bounded / luminance(unshadowed_contribution(point, vpls, y, k_infinity)),
-                        .weight = weight,
-                        .candidate_weight = candidate_weight});
+  const float plain = luminance(unshadowed_contribution(point, vpls, y, k_infinity));
+  happening::VplConnection connection{.vpl = vpl,
+                                      .vertex = y.vertex,
+                                      .edges = connection_edges(x, y),
+                                      .position = y.position,
+                                      .distance = std::sqrt(distance_squared(x.point.position, y.position)),
+                                      .unshadowed = unshadowed,
+                                      .transmittance = transmittance,
+                                      .bounded_weight = plain > 0 ? bounded / plain : 1,
+                                      .weight = weight,
+                                      .candidate_weight = candidate_weight};
+  if (!y.is_lambert()) connection.material = vpls.set.surfaces[y.surface].material;
+  context.log->add_vpl(connection);
 }
 
 }  // namespace gradslc

@@ -65,6 +65,7 @@ struct VplConnection {
   int vertex;         ///< k: which of its light path
   int edges;          ///< D, crossings left out
   Point3 position;
+  std::optional<std::uint32_t> material;  ///< of y, where f_c(y) is not Lambert's
   float distance;
   Rgb unshadowed;  ///< as bounded, without the weight
   Rgb transmittance;
