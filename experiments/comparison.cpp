@@ -35,7 +35,8 @@ std::vector<MethodRun> make_runs(const Comparison& comparison, const Makers& mak
   std::vector<MethodRun> runs;
   runs.reserve(experiment.methods.size());
   for (const MethodPlan& method : experiment.methods) {
-    MethodRun::Plan plan{method.name, comparison.settings, experiment.budget, experiment.parts,
+    MethodRun::Plan plan{method.name, comparison.settings, experiment.budget,
+                         FilmLayers{.parts = experiment.parts, .debug = experiment.debug},
                          curve_targets(experiment.budget)};
     runs.emplace_back(std::move(plan), makers.integrator(method), makers.reconstruction(method), comparison.scene,
                       makers.clock);

@@ -77,6 +77,7 @@ void ConfigReader::read_settings(JsonObjectReader& reader) {
   reader.integer("repeats", experiment_.repeats, {1, 1e6}, "", "runs of everything, each with a seed of its own");
   reader.integer("max_depth", settings.max_depth, k_depth_range, "edges", "most edges of a path");
   reader.boolean("parts", experiment_.parts, "also writes each image split by how the light came");
+  reader.boolean("debug", experiment_.debug, "also writes what each pixel cost and its largest contribution");
   std::vector<std::string> samplers;
   for (const SamplerEntry& entry : registries_.samplers) samplers.emplace_back(entry.name);
   const auto current = std::find_if(registries_.samplers.begin(), registries_.samplers.end(),
@@ -233,8 +234,8 @@ json resolved_config(const Experiment& experiment, const Registries& registries)
   json resolved = {{"name", experiment.name},         {"description", experiment.description},
                    {"seed", settings.seed},           {"repeats", experiment.repeats},
                    {"max_depth", settings.max_depth}, {"components", names_of(settings.components)},
-                   {"parts", experiment.parts},       {"scenes", json::array()},
-                   {"methods", json::array()}};
+                   {"parts", experiment.parts},       {"debug", experiment.debug},
+                   {"scenes", json::array()},         {"methods", json::array()}};
   for (const SamplerEntry& entry : registries.samplers)
     if (entry.kind == settings.sampler) resolved["sampler"] = entry.name;
   for (const ScenePlan& scene : experiment.scenes) resolved["scenes"].push_back(resolved_scene(scene));

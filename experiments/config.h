@@ -19,7 +19,7 @@ struct ConfigOptions {
 
 /// Reads an experiment's config, a JSON object with comments:
 ///
-///     name (default: the file's), description, seed, repeats, max_depth, components, sampler, parts,
+///     name (default: the file's), description, seed, repeats, max_depth, components, sampler, parts, debug,
 ///     scenes: [{file, name, width, height, max_depth}], methods: as read_method() takes them,
 ///     budget: {seconds} or {spp}, reference (optional): {spp} or {file}
 ///

@@ -50,7 +50,7 @@ struct Experiment {
   std::string name, description;
   RenderSettings settings;  ///< seed, max_depth, components, sampler
   int repeats = 1;
-  bool parts = false;
+  bool parts = false, debug = false;
   std::vector<ScenePlan> scenes;
   std::vector<MethodPlan> methods;
   Budget budget;

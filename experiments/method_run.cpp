@@ -60,7 +60,9 @@ std::optional<PointImage> MethodRun::step() {
 void MethodRun::prepare() {
   prepare_ = measure(clock_, [&] {
     integrator_->prepare(scene_, plan_.settings);
-    film_.emplace(scene_.camera().resolution(), FilmLayers{integrator_->traits().gradients, plan_.parts});
+    FilmLayers layers = plan_.layers;
+    layers.gradients = integrator_->traits().gradients;
+    film_.emplace(scene_.camera().resolution(), layers);
   });
 }
 

@@ -45,7 +45,7 @@ class MethodRun {
     std::string name;
     RenderSettings settings;
     Budget budget;
-    bool parts = false;
+    FilmLayers layers;            ///< beside gradients, which are the method's own
     std::vector<double> targets;  ///< of curve points, ascending, the budget last
   };
   /// `scene` must outlive the run. `reconstruction` may be null. `clock` tells the time.

@@ -44,16 +44,16 @@ nlohmann::json counters_json(const IntegratorStatistics& statistics) {
 }  // namespace
 
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
-                           const Budget& budget, bool parts, const Progress& progress) {
-  return render_method(scene, method, settings, budget, parts, real_makers(), progress);
+                           const Budget& budget, FilmLayers layers, const Progress& progress) {
+  return render_method(scene, method, settings, budget, layers, real_makers(), progress);
 }
 
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
-                           const Budget& budget, bool parts, const Makers& makers, const Progress& progress) {
+                           const Budget& budget, FilmLayers layers, const Makers& makers, const Progress& progress) {
   require_memory(plan_memory({method}, "memory", scene, settings, makers), makers.available_memory());
   nlohmann::json machine = machine_info();
   std::unique_ptr<Reconstruction> reconstruction = makers.reconstruction(method);
-  MethodRun::Plan plan{method.name, settings, budget, parts, render_targets(budget, reconstruction != nullptr)};
+  MethodRun::Plan plan{method.name, settings, budget, layers, render_targets(budget, reconstruction != nullptr)};
   MethodRun run(std::move(plan), makers.integrator(method), std::move(reconstruction), scene, makers.clock);
 
   const double begin = makers.clock().wall;

@@ -23,11 +23,12 @@ struct RenderResult {
 };
 
 /// Renders one method to the end of its budget. Where that is in seconds and the method has a reconstruction, it is
-/// also run once at half of the budget, uncharged, so that the last one's time can be predicted.
+/// also run once at half of the budget, uncharged, so that the last one's time can be predicted. `layers`: what the
+/// film records beside gradients, which are the method's own.
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
-                           const Budget& budget, bool parts, const Progress& progress);
+                           const Budget& budget, FilmLayers layers, const Progress& progress);
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
-                           const Budget& budget, bool parts, const Makers& makers, const Progress& progress);
+                           const Budget& budget, FilmLayers layers, const Makers& makers, const Progress& progress);
 
 /// The result of a run that is done; `final` is its last point. The run must not be used afterwards.
 RenderResult take_result(MethodRun& run, PointImage final, nlohmann::json machine);

@@ -175,6 +175,7 @@ class Run {
             {"method", to_json(method)},
             {"settings", to_json(comparison.settings)},
             {"parts", experiment_.parts},
+            {"debug", experiment_.debug},
             {"repeat", comparison.repeat},
             {"budget", {{budget.kind == Budget::Kind::spp ? "spp" : "seconds", budget.value}}},
             {"reference", comparison.reference != nullptr ? comparison.reference->about : nlohmann::json(nullptr)}};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -16,6 +18,7 @@
 #include "experiments/components.h"
 #include "experiments/config_override.h"
 #include "experiments/method_plan.h"
+#include "experiments/replay.h"
 #include "experiments/report_images.h"
 #include "scene/loaders/loader.h"
 #include "scene/scene.h"
@@ -35,7 +38,8 @@ struct RenderArguments {
   std::string sampler;
   std::vector<std::string> overrides;
   float exposure = 0;
-  bool permissive = false, parts = false, print_json = false, quiet = false;
+  std::optional<std::string> replay;
+  bool permissive = false, parts = false, debug = false, print_json = false, quiet = false;
 };
 
 /// Reads --method, a name or a JSON object, with --set applied.
@@ -116,32 +120,100 @@ std::string summary_line(const RenderResult& result, const std::filesystem::path
                      result.cpu_seconds, static_cast<double>(result.statistics.rays) * 1e-6);
 }
 
-int render(const RenderArguments& arguments) {
-  Problems problems;
-  const std::optional<MethodPlan> method = method_of(arguments, problems);
-  if (!method) return report_problems(problems);
-  const RenderSettings settings = settings_of(arguments);
-  const std::filesystem::path output =
-      arguments.output.empty() ? std::filesystem::path(arguments.scene).stem().concat(".exr") : arguments.output;
-  const bool png = writes_png(output);
-  require_writable_file(output);
-  set_thread_count(arguments.threads);
+/// The largest contribution to a film that has debug images: where, and what it came by.
+struct Firefly {
+  Pixel pixel;
+  Largest largest;
+};
+std::optional<Firefly> largest_contribution(const Film& film) {
+  if (!film.layers().debug) return std::nullopt;
+  const DebugImage debug = film.debug();
+  const std::optional<Pixel> pixel = pixel_of_largest_contribution(debug);
+  if (!pixel) return std::nullopt;
+  return Firefly{*pixel, debug[*pixel].contribution};
+}
+std::string replay_of(const Firefly& firefly) {
+  return fmt::format("{},{},{}", firefly.pixel.x, firefly.pixel.y, firefly.largest.pass);
+}
+/// The part's name, or "" where it is not known.
+std::string part_of(const Firefly& firefly) {
+  const std::optional<Part> part = firefly.largest.part;
+  return part ? k_part_names[static_cast<std::size_t>(*part)] : "";
+}
+json to_json(const Firefly& firefly) {
+  return {{"luminance", number(double{firefly.largest.luminance})},
+          {"part", part_of(firefly)},
+          {"replay", replay_of(firefly)}};
+}
+std::string firefly_line(const Firefly& firefly) {
+  const std::string part = part_of(firefly);
+  return fmt::format("largest contribution: luminance {:.4g}{}; --replay {} instead of --debug shows its sample",
+                     firefly.largest.luminance, part.empty() ? "" : fmt::format(" ({})", part), replay_of(firefly));
+}
 
-  Console console(arguments.quiet);
-  LoadOptions load_options;
-  load_options.width = arguments.width;
-  load_options.height = arguments.height;
-  load_options.permissive = arguments.permissive;
-  const Scene scene(load_scene(arguments.scene, load_options));
+/// Which sample --replay asks for.
+struct ReplayTarget {
+  Pixel pixel;
+  std::uint32_t pass;
+};
+ReplayTarget replay_target(const std::string& text) {
+  std::array<std::uint32_t, 3> numbers{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto [rest, code] = std::from_chars(at, end, numbers[i]);
+    const bool last = i + 1 == numbers.size();
+    const bool fits = numbers[i] <= static_cast<std::uint32_t>(std::numeric_limits<int>::max());
+    if (code != std::errc() || !fits || (last ? rest != end : rest == end || *rest != ','))
+      throw_input_error("--replay",
+                        fmt::format("\"{}\" must be X,Y,PASS: column, row and pass, each an integer from 0", text));
+    at = rest + 1;
+  }
+  return {{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])}, numbers[2]};
+}
+
+Scene scene_of(const RenderArguments& arguments, Console& console) {
+  LoadOptions options;
+  options.width = arguments.width;
+  options.height = arguments.height;
+  options.permissive = arguments.permissive;
+  Scene scene(load_scene(arguments.scene, options));
   if (arguments.permissive)
     for (const std::string& note : scene.notes()) console.log(note);
   else if (!scene.notes().empty())
     console.log(fmt::format("{}: {} settings have no effect here; gradslc info lists them", arguments.scene,
                             scene.notes().size()));
+  return scene;
+}
+
+int replay(const RenderArguments& arguments, const MethodPlan& method, const RenderSettings& settings) {
+  const ReplayTarget target = replay_target(*arguments.replay);
+  set_thread_count(arguments.threads);
+  Console console(arguments.quiet);
+  const Scene scene = scene_of(arguments, console);
+  fmt::print("{}", to_text(replay_sample(scene, method, settings, target.pixel, target.pass, arguments.parts), scene));
+  return k_done;
+}
+
+int render(const RenderArguments& arguments) {
+  Problems problems;
+  const std::optional<MethodPlan> method = method_of(arguments, problems);
+  if (!method) return report_problems(problems);
+  const RenderSettings settings = settings_of(arguments);
+  if (arguments.replay) return replay(arguments, *method, settings);
+  const std::filesystem::path output =
+      arguments.output.empty() ? std::filesystem::path(arguments.scene).stem().concat(".exr") : arguments.output;
+  const bool png = writes_png(output);
+  if (png && arguments.debug) throw_input_error(output.string(), "must end in .exr to hold the images of --debug");
+  require_writable_file(output);
+  set_thread_count(arguments.threads);
+
+  Console console(arguments.quiet);
+  const Scene scene = scene_of(arguments, console);
   const Budget budget = arguments.seconds ? Budget{Budget::Kind::seconds, *arguments.seconds}
                                           : Budget{Budget::Kind::spp, static_cast<double>(arguments.spp)};
   const RenderResult result = render_method(
-      scene, *method, settings, budget, arguments.parts,
+      scene, *method, settings, budget, {.parts = arguments.parts, .debug = arguments.debug},
       [&](double fraction, double eta, const std::string& what) { console.progress(fraction, eta, what); });
   if (png)
     write_file_atomically(output, encode_png(result.image, std::exp2(arguments.exposure)));
@@ -151,11 +223,17 @@ int render(const RenderArguments& arguments) {
                   {"method", resolved_method(*method, all_registries())},
                   {"settings", to_json(settings)},
                   {"budget", arguments.seconds ? json{{"seconds", *arguments.seconds}} : json{{"spp", arguments.spp}}},
-                  {"parts", arguments.parts}});
-  if (arguments.print_json)
-    fmt::print("{}\n", summary(result, *method, output).dump(2));
-  else
+                  {"parts", arguments.parts},
+                  {"debug", arguments.debug}});
+  const std::optional<Firefly> firefly = largest_contribution(result.film);
+  if (arguments.print_json) {
+    json printed = summary(result, *method, output);
+    if (firefly) printed["largest_contribution"] = to_json(*firefly);
+    fmt::print("{}\n", printed.dump(2));
+  } else {
     console.log(summary_line(result, output));
+    if (firefly) console.log(firefly_line(*firefly));
+  }
   return k_done;
 }
 
@@ -166,7 +244,7 @@ Command render_command(CLI::App& parent) {
   CLI::App& app = *parent.add_subcommand("render", "Renders a scene with one method");
   constexpr int k_largest = std::numeric_limits<int>::max();
   app.add_option("SCENE", arguments->scene, "Mitsuba scene file (.xml)")->required();
-  app.add_option(
+  CLI::Option* output = app.add_option(
       "-o,--output", arguments->output,
       "Image: .exr with layers and a .json manifest beside it, or .png to look at (default: SCENE's name.exr)");
   app.add_option("--method", arguments->method, "Integrator's name, or a JSON object as in a config's methods")
@@ -176,9 +254,9 @@ Command render_command(CLI::App& parent) {
   CLI::Option* spp = app.add_option("--spp", arguments->spp, "Samples per pixel")
                          ->check(CLI::Range(1, k_largest))
                          ->capture_default_str();
-  app.add_option("--seconds", arguments->seconds, "Wall-clock time to spend instead")
-      ->check(CLI::Range(1e-3, 1e9))
-      ->excludes(spp);
+  CLI::Option* seconds = app.add_option("--seconds", arguments->seconds, "Wall-clock time to spend instead")
+                             ->check(CLI::Range(1e-3, 1e9))
+                             ->excludes(spp);
   app.add_option("--seed", arguments->seed, "Seed of all random numbers")
       ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
@@ -196,17 +274,29 @@ Command render_command(CLI::App& parent) {
   app.add_option("--components", arguments->components, "Light to show: emission,direct,indirect (default: all)");
   app.add_flag("--permissive", arguments->permissive, "Note what the scene file has that is not recognised, and go on");
   app.add_flag("--parts", arguments->parts, "Also write the image split by how the light came");
+  CLI::Option* debug = app.add_flag("--debug", arguments->debug,
+                                    "Also write what each pixel's samples cost, and its largest contribution");
   app.add_option("--exposure", arguments->exposure, "Stops added in a .png")
       ->check(CLI::Range(-100.0, 100.0))
       ->capture_default_str();
-  app.add_flag("--json", arguments->print_json, "Print a summary as JSON to stdout");
+  CLI::Option* print_json = app.add_flag("--json", arguments->print_json, "Print a summary as JSON to stdout");
+  app.add_option(
+         "--replay", arguments->replay,
+         "X,Y,PASS: print that pixel's sample of that pass, with all paths and connections, instead of an image")
+      ->excludes(spp)
+      ->excludes(seconds)
+      ->excludes(output)
+      ->excludes(debug)
+      ->excludes(print_json);
   app.add_flag("--quiet", arguments->quiet, "Print errors only");
   app.footer(
       "Examples:\n"
       "  gradslc render scene.xml --method spt --spp 256 -o reference.exr\n"
       "  gradslc render scene.xml --method '{\"integrator\": \"slc\", \"cut_size\": 10}' --seconds 20\n"
       "  gradslc render scene.xml --method slc --set vpl.light_paths=1e5 --components indirect --json\n"
-      "  gradslc render scene.xml --width 256 -o preview.png --exposure 1");
+      "  gradslc render scene.xml --width 256 -o preview.png --exposure 1\n"
+      "  gradslc render scene.xml --method slc --spp 64 --debug -o fireflies.exr\n"
+      "  gradslc render scene.xml --method slc --replay 120,37,5");
   return {&app, [arguments] { return render(*arguments); }};
 }
 

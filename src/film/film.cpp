@@ -109,6 +109,7 @@ Film::Film(Resolution resolution, FilmLayers layers) : layers_(layers) {
     half.primal = MomentImage(resolution);
     if (layers.gradients) half.dx = half.dy = MomentImage(resolution);
     if (layers.parts) half.part_sums.assign(k_part_count, Image<Rgb>(resolution));
+    if (layers.debug) half.debug = DebugImage(resolution);
   }
 }
 
@@ -128,6 +129,7 @@ void Film::merge(const Film& other) {
     halves_[h].dy.merge(from.dy);
     for (std::size_t p = 0; p < from.part_sums.size(); ++p)
       for (std::size_t i = 0; i < from.part_sums[p].size(); ++i) halves_[h].part_sums[p][i] += from.part_sums[p][i];
+    halves_[h].debug.merge(from.debug);
   }
 }
 
@@ -154,6 +156,12 @@ Image<Rgb> Film::part(Part part) const {
     if (count > 0) image[i] = (halves_[0].part_sums[p][i] + halves_[1].part_sums[p][i]) / static_cast<float>(count);
   }
   return image;
+}
+
+DebugImage Film::debug() const {
+  DebugImage both = halves_[0].debug;
+  both.merge(halves_[1].debug);
+  return both;
 }
 
 std::uint64_t Film::invalid_samples() const {

@@ -5,13 +5,10 @@
 #include <vector>
 
 #include "core/image.h"
+#include "film/debug_image.h"
+#include "film/part.h"
 
 namespace gradslc {
-
-/// How light came to the camera (DESIGN 4): the parts of an image, which sum to it.
-enum class Part : std::uint8_t { direct, vpl, compensation, specular, prefix };
-constexpr int k_part_count = 5;
-constexpr const char* k_part_names[k_part_count] = {"direct", "vpl", "compensation", "specular", "prefix"};
 
 /// Count, sum and sum of squares per pixel and channel, in double. Samples come in sets (one VPL set; one pass where a
 /// method has none): samples of a set are correlated, so a moment is the mean over one set.
@@ -70,6 +67,7 @@ class MomentImage {
 struct FilmLayers {
   bool gradients = false;
   bool parts = false;
+  bool debug = false;
   bool operator==(const FilmLayers&) const = default;
 };
 
@@ -78,6 +76,7 @@ struct FilmHalf {
   MomentImage primal;
   MomentImage dx, dy;                 ///< dx(x,y) estimates I(x+1,y) - I(x,y), dy alike; empty without gradients
   std::vector<Image<Rgb>> part_sums;  ///< per Part, sum over the primal's valid samples, float; empty without parts
+  DebugImage debug;                   ///< empty without debug
 };
 
 /// Accumulates passes of one method into two half-buffers that alternate by VPL set (by pass where there is none) and
@@ -99,6 +98,7 @@ class Film {
   // Both halves together, weighted by their counts.
   Image<Rgb> primal() const;  ///< 0 where there are no samples
   Image<Rgb> part(Part part) const;
+  DebugImage debug() const;
   /// NaN and infinite samples of primal, dx and dy.
   std::uint64_t invalid_samples() const;
 

@@ -48,6 +48,33 @@ Image<float> invalid_layer(const Film& film) {
   return invalid;
 }
 
+/// Of an image's part, the place in k_part_names; -1: not known.
+float part_index(const Largest& largest) { return largest.part ? static_cast<float>(*largest.part) : -1; }
+
+struct DebugLayer {
+  const char* name;
+  float (*value)(const DebugImage::Accumulator& pixel);
+};
+using DebugPixel = DebugImage::Accumulator;
+constexpr DebugLayer k_debug_layers[] = {
+    {"debug_cut_size", [](const DebugPixel& p) { return static_cast<float>(p.cut_size / p.samples); }},
+    {"debug_node_evaluations", [](const DebugPixel& p) { return static_cast<float>(p.node_evaluations / p.samples); }},
+    {"debug_rays", [](const DebugPixel& p) { return static_cast<float>(p.rays / p.samples); }},
+    {"debug_contribution", [](const DebugPixel& p) { return p.contribution.luminance; }},
+    {"debug_contribution_part", [](const DebugPixel& p) { return part_index(p.contribution); }},
+    {"debug_contribution_pass", [](const DebugPixel& p) { return static_cast<float>(p.contribution.pass); }},
+    {"debug_sample", [](const DebugPixel& p) { return p.sample.luminance; }},
+    {"debug_sample_pass", [](const DebugPixel& p) { return static_cast<float>(p.sample.pass); }},
+};
+
+/// Pixels without samples are 0.
+Image<float> debug_layer(const DebugImage& debug, const DebugLayer& layer) {
+  Image<float> image(debug.resolution());
+  for (std::size_t i = 0; i < image.size(); ++i)
+    if (debug[i].samples > 0) image[i] = layer.value(debug[i]);
+  return image;
+}
+
 }  // namespace
 
 MomentLayers moment_layers(const MomentImage& image) {
@@ -79,6 +106,10 @@ std::map<std::string, ExrLayer> film_layers(const Film& film) {
   layers["invalid"] = invalid_layer(film);
   if (film.layers().parts)
     for (int p = 0; p < k_part_count; ++p) layers[k_part_names[p]] = film.part(static_cast<Part>(p));
+  if (film.layers().debug) {
+    const DebugImage debug = film.debug();
+    for (const DebugLayer& layer : k_debug_layers) layers[layer.name] = debug_layer(debug, layer);
+  }
   return layers;
 }
 

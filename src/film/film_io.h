@@ -23,7 +23,11 @@ MomentLayers moment_layers(const MomentImage& image);
 /// with gradients `dx`, `dy`, `dx_variance`, `dy_variance`;
 /// per half h = a, b what is needed to reconstruct again: `primal_h`, `primal_variance_h`, `primal_count_h`, with
 /// gradients the same for dx and dy; with parts `direct`, `vpl`, `compensation`, `specular`, `prefix`.
-/// Counts and `invalid` have one channel.
+/// Counts and `invalid` have one channel, and so have, with debug,
+/// `debug_cut_size`, `debug_node_evaluations` and `debug_rays`, means over the pixel's samples;
+/// `debug_contribution`, the luminance of the largest single contribution to any of them, `debug_contribution_part`,
+/// its part as an index into k_part_names, and `debug_contribution_pass`; `debug_sample`, the luminance of the largest
+/// sample, and `debug_sample_pass`. Part and pass are -1 where there is none.
 std::map<std::string, ExrLayer> film_layers(const Film& film);
 
 }  // namespace gradslc

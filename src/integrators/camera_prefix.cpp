@@ -34,6 +34,7 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
   int edges = 0;
   while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, prefix.radiance)) {
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (context.log) log_vertex(context, vertex, throughput.total());
     if (passes_on(context, vertex, throughput, ray, origin)) continue;
     const auto index = static_cast<std::uint32_t>(edges);
     const LobeChoice choice = choose_lobe(vertex, context.lobes, context.random.get1(Use::lobe, index));

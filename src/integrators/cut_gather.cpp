@@ -8,10 +8,9 @@ namespace gradslc {
 
 std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receivers, const SampleStream& random) {
   chosen_.clear();
-  ++cost_.selections;
   find_cut(tree_, receivers, bound_, limits_, cut_);
-  cost_.cut_nodes += cut_.entries.size();
-  cost_.node_evaluations += cut_.evaluated.size() * receivers.size();
+  last_cost_ = {
+      .node_evaluations = cut_.evaluated.size() * receivers.size(), .selections = 1, .cut_nodes = cut_.entries.size()};
 
   // One double with 64 random bits, rotated by the golden ratio from node to node: stratified across the cut, uniform
   // for each node.
@@ -22,10 +21,17 @@ std::span<const ChosenVpl> CutSelector::select(std::span<const Receiver> receive
     const double u = start + rotation;
     rotation += 1 / std::numbers::phi;
     const auto sample = descend(tree_, cut_, entry, receivers, bound_, std::min(u - std::floor(u), k_below_one),
-                                cost_.node_evaluations);
+                                last_cost_.node_evaluations);
     if (sample) chosen_.push_back({sample->vpl, static_cast<float>(1 / sample->probability)});
   }
+  cost_ += last_cost_;
   return chosen_;
+}
+
+void log_selection(PathLog* log, const SelectionCost& cost, std::size_t receivers) {
+  if (!log) return;
+  log->add_selection(static_cast<float>(cost.cut_nodes),
+                     static_cast<float>(cost.node_evaluations) / static_cast<float>(receivers));
 }
 
 VplLight gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree,
@@ -41,6 +47,8 @@ VplLight gather_chosen(PathContext& context, const PathVertex& x, const LightTre
     const Rgb transmittance =
         connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
     light.from(vpl) += contribution * transmittance * choice.inverse_probability;
+    if (context.log)
+      log_connection(context, x, vpls, choice.vpl, bound, contribution, transmittance, choice.inverse_probability);
   }
   return light;
 }

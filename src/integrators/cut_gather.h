@@ -34,6 +34,8 @@ class CutSelector {
   /// The choice depends on `random`'s numbers for Use::descent alone. Valid until the next call.
   std::span<const ChosenVpl> select(std::span<const Receiver> receivers, const SampleStream& random);
   const SelectionCost& cost() const { return cost_; }
+  /// Of the last selection alone.
+  const SelectionCost& last_cost() const { return last_cost_; }
 
  private:
   const LightTree& tree_;
@@ -41,8 +43,11 @@ class CutSelector {
   float bound_;
   LightCut cut_;
   std::vector<ChosenVpl> chosen_;
-  SelectionCost cost_;
+  SelectionCost cost_, last_cost_;
 };
+
+/// Tells a log, if there is one, of a selection shared by some receivers: each pixel has its share of the cost.
+void log_selection(PathLog* log, const SelectionCost& cost, std::size_t receivers = 1);
 
 /// Light from the chosen VPLs at x, a shadow ray for each that contributes.
 VplLight gather_chosen(PathContext& context, const PathVertex& x, const LightTree& tree,

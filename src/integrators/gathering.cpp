@@ -98,6 +98,7 @@ void add_reflected(PathContext& context, const GatherSite& site, const PathVerte
   behind.next_event = EmitterChoice::all;
   gather_next_event(context, at_y, behind, radiance);
   const LabelledThroughput from_y = throughput.scattered({Rgb(1), Rgb()});
+  if (context.log) context.log->begin_vertex_gather(from_y.total());
   from_y.collect(vertices(context, y, left_over, at_y.max_edges), radiance);
   send_ray(context, at_y, behind, vertices, radiance);
 }
@@ -132,6 +133,7 @@ void send_ray(PathContext& context, const GatherSite& site, const GatherSettings
   while (const auto hit = trace_edge(context, ray, emission, edges, site.max_edges, throughput, radiance)) {
     if (!goes_on && !context.scene.has_crossings()) return;
     const PathVertex y = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (context.log) log_vertex(context, y, throughput.total());
     if (passes_on(context, y, throughput, ray, origin)) continue;
     if (goes_on) add_reflected(context, site, y, gathered, gather, vertices, throughput, radiance);
     return;
@@ -163,25 +165,50 @@ float reach_of_vertices(const Scene& scene, const GatherSettings& gather, int ma
 
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                           PartValues& radiance, float mean_rays, const VertexGather& vertices) {
+  if (context.log) context.log->begin_gather(prefix.throughput);
   GatherSite site{*prefix.gather, LabelledThroughput::camera_path(prefix.throughput), nullptr,
                   context.settings.max_depth};
   gather_next_event(context, site, gather, radiance);
   site.throughput.vpl_part = Part::compensation;
   PartValues brought;
   if (mean_rays == 1) {
+    if (context.log) context.log->begin_compensation_ray(0, 1);
     send_ray(context, site, gather, vertices, brought);
   } else {
     const auto count = static_cast<std::uint32_t>(mean_rays + context.random.get1(Use::ray_count));
     const SampleStream random = context.random;
     for (std::uint32_t ray = 0; ray < count; ++ray) {
       context.random = random.branch(ray);
+      if (context.log) context.log->begin_compensation_ray(ray, 1 / mean_rays);
       send_ray(context, site, gather, vertices, brought);
     }
     context.random = random;
     brought *= 1 / mean_rays;
   }
+  if (context.log) context.log->end_compensation_rays();
   radiance += brought;
   return luminance(brought.total());
+}
+
+void log_connection(const PathContext& context, const PathVertex& x, const VplView& vpls, std::uint32_t vpl,
+                    float bound, Rgb unshadowed, Rgb transmittance, float weight,
+                    std::optional<float> candidate_weight) {
+  const Vpl& y = vpls[vpl];
+  const GatherPoint point{x, context.lobes};
+  const float bounded = luminance(unshadowed_contribution(point, vpls, y, bound));
+  const float plain = luminance(unshadowed_contribution(point, vpls, y, k_infinity));
+  happening::VplConnection connection{.vpl = vpl,
+                                      .vertex = y.vertex,
+                                      .edges = connection_edges(x, y),
+                                      .position = y.position,
+                                      .distance = std::sqrt(distance_squared(x.point.position, y.position)),
+                                      .unshadowed = unshadowed,
+                                      .transmittance = transmittance,
+                                      .bounded_weight = plain > 0 ? bounded / plain : 1,
+                                      .weight = weight,
+                                      .candidate_weight = candidate_weight};
+  if (!y.is_lambert()) connection.material = vpls.set.surfaces[y.surface].material;
+  context.log->add_vpl(connection);
 }
 
 }  // namespace gradslc

@@ -67,4 +67,9 @@ using VertexGather =
 float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
                           PartValues& radiance, float mean_rays = 1, const VertexGather& vertices = {});
 
+/// Tells the context's log of a connection whose shadow ray was traced: x gets unshadowed * transmittance * weight.
+void log_connection(const PathContext& context, const PathVertex& x, const VplView& vpls, std::uint32_t vpl,
+                    float bound, Rgb unshadowed, Rgb transmittance, float weight,
+                    std::optional<float> candidate_weight = std::nullopt);
+
 }  // namespace gradslc

@@ -51,13 +51,14 @@ class GradientStochasticLightcuts final : public Integrator {
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+    const LoggedSamples logged = logged_samples(slot, film);
     const LightTree& tree = source_.vpls_of(slot);
     FilmHalf& half = film.half(slot.half);
-    trace_prefixes(slot, film.resolution());
+    trace_prefixes(slot, film.resolution(), logged);
     if (shift_ == Shift::reconnection)
-      render_stencils(slot, tree, half);
+      render_stencils(slot, tree, logged, half);
     else
-      render_blocks(slot, tree, half);
+      render_blocks(slot, tree, logged, half);
     if (slot.closes_set) film.close_set(slot.half);
   }
 
@@ -96,16 +97,22 @@ class GradientStochasticLightcuts final : public Integrator {
     return {*scene_, settings_, source_.parameters().lobes(), random};
   }
 
-  void trace_prefixes(const PassSlot& slot, Resolution resolution) {
+  void trace_prefixes(const PassSlot& slot, Resolution resolution, const LoggedSamples& logged) {
     prefixes_ = Image<CameraPrefix>(resolution);
+    if (logged.any()) prefix_logs_ = Image<PathLog>(resolution);
     const SampleStream random = stream(slot, k_image_stream);
     const Vec2 jitter = random.get2(Use::pixel);
     cost_.prefix_rays += parallel_sum<std::uint64_t>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
-      PathContext path = context(random);
+      std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        prefixes_[i] = trace_camera_prefix(path, film_position(resolution.pixel(i), jitter));
+        const Pixel pixel = resolution.pixel(i);
+        PathContext path = context(random);
+        if (logged.any()) path.log = logged.begin_part(pixel, prefix_logs_[i]);
+        prefixes_[i] = trace_camera_prefix(path, film_position(pixel, jitter));
+        if (path.log) path.log->add_rays(path.rays);
+        rays += path.rays;
       }
-      return path.rays;
+      return rays;
     });
   }
 
@@ -113,40 +120,52 @@ class GradientStochasticLightcuts final : public Integrator {
     return make_receiver({*prefixes_[pixel].gather, source_.parameters().lobes()});
   }
 
+  /// The log of a pixel's sample, the camera's part of it told; null where none is wanted.
+  PathLog* begin_log(const LoggedSamples& logged, Pixel pixel, PathLog& memory) const {
+    PathLog* log = logged.begin(pixel, memory);
+    if (log) log->append(prefix_logs_[pixel], 1);
+    return log;
+  }
+
   /// One pixel's sample with the random numbers and VPLs of a group.
   PartValues sample(const LightTree& tree, Pixel pixel, const SampleStream& random, std::span<const ChosenVpl> chosen,
-                    std::uint64_t& rays) const {
+                    std::uint64_t& rays, PathLog* log) const {
     const CameraPrefix& prefix = prefixes_[pixel];
     PartValues radiance = prefix.radiance;
     if (!prefix.gather) return radiance;
     PathContext path = context(random);
+    path.log = log;
     gather_without_vpls(path, prefix, gather_, radiance);
     gather_chosen(path, *prefix.gather, tree, chosen, gather_.bound).collect(prefix.throughput, radiance);
+    if (log) log->add_rays(path.rays);
     rays += path.rays;
     return radiance;
   }
 
   /// random_replay: every pixel of a block selects for itself with the block's random numbers; gradients inside blocks.
-  void render_blocks(const PassSlot& slot, const LightTree& tree, FilmHalf& half) {
+  void render_blocks(const PassSlot& slot, const LightTree& tree, const LoggedSamples& logged, FilmHalf& half) {
     const BlockPartition partition(prefixes_.resolution(), block_,
                                    stream(slot, k_image_stream).get2(Use::group_offset));
     run_groups(partition.size(), tree, [&](std::size_t group, CutSelector& selector, GradientCost& cost) {
       const auto [first, size] = partition.block(group);
       const SampleStream random = stream(slot, group);
       Image<PartValues> samples(size);
+      PathLog memory;
       for (std::size_t i = 0; i < samples.size(); ++i) {
         const Pixel pixel = first + size.pixel(i);
+        PathLog* const log = begin_log(logged, pixel, memory);
         std::span<const ChosenVpl> chosen;
         if (prefixes_[pixel].gather) {
           const Receiver alone = receiver(pixel);
           chosen = selector.select({&alone, 1}, random);
+          log_selection(log, selector.last_cost());
         }
-        samples[i] = sample(tree, pixel, random, chosen, cost.base_rays);
+        samples[i] = sample(tree, pixel, random, chosen, cost.base_rays, log);
+        record(half, pixel, samples[i], log);
       }
       for (std::size_t i = 0; i < samples.size(); ++i) {
         const Pixel local = size.pixel(i), pixel = first + local;
         const Pixel right{local.x + 1, local.y}, lower{local.x, local.y + 1};
-        record(half, pixel, samples[i]);
         if (size.contains(right)) half.dx.add(pixel, samples[right].total() - samples[i].total());
         if (size.contains(lower)) half.dy.add(pixel, samples[lower].total() - samples[i].total());
       }
@@ -155,10 +174,11 @@ class GradientStochasticLightcuts final : public Integrator {
 
   /// reconnection: a group is a base pixel with its offsets; one choice of VPLs by the law shared over all of them.
   /// Offsets' values are samples of their own pixels too.
-  void render_stencils(const PassSlot& slot, const LightTree& tree, FilmHalf& half) {
+  void render_stencils(const PassSlot& slot, const LightTree& tree, const LoggedSamples& logged, FilmHalf& half) {
     const Resolution resolution = prefixes_.resolution();
     const auto offsets = stencil_offsets(stencil_);
     stencil_values_.assign(resolution.pixels() * offsets.size(), PartValues());
+    if (logged.any()) stencil_logs_.assign(stencil_values_.size(), PathLog());
     run_groups(resolution.pixels(), tree, [&](std::size_t group, CutSelector& selector, GradientCost& cost) {
       const Pixel base = resolution.pixel(group);
       const SampleStream random = stream(slot, group);
@@ -169,23 +189,28 @@ class GradientStochasticLightcuts final : public Integrator {
           receivers[receiver_count++] = receiver(base + offset);
       std::span<const ChosenVpl> chosen;
       if (receiver_count > 0) chosen = selector.select(std::span(receivers).first(receiver_count), random);
-      for (std::size_t k = 0; k < offsets.size(); ++k)
-        if (const Pixel pixel = base + offsets[k]; resolution.contains(pixel))
-          stencil_value(group, k) =
-              sample(tree, pixel, random, chosen, k == k_base ? cost.base_rays : cost.offset_rays);
+      for (std::size_t k = 0; k < offsets.size(); ++k) {
+        const Pixel pixel = base + offsets[k];
+        if (!resolution.contains(pixel)) continue;
+        PathLog* const log = logged.any() ? logged.begin_part(pixel, stencil_logs_[stencil_index(group, k)]) : nullptr;
+        if (prefixes_[pixel].gather) log_selection(log, selector.last_cost(), receiver_count);
+        stencil_value(group, k) =
+            sample(tree, pixel, random, chosen, k == k_base ? cost.base_rays : cost.offset_rays, log);
+      }
     });
     parallel_for(resolution.pixels(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) record_stencil_values(resolution.pixel(i), half);
+      for (std::size_t i = begin; i < end; ++i) record_stencil_values(resolution.pixel(i), logged, half);
     });
   }
 
-  PartValues& stencil_value(std::size_t base, std::size_t k) {
-    return stencil_values_[base * stencil_offsets(stencil_).size() + k];
+  std::size_t stencil_index(std::size_t base, std::size_t k) const {
+    return base * stencil_offsets(stencil_).size() + k;
   }
+  PartValues& stencil_value(std::size_t base, std::size_t k) { return stencil_values_[stencil_index(base, k)]; }
 
   /// The pixel's primal is the mean over all groups that hold it; a difference the mean over those that hold both
   /// pixels.
-  void record_stencil_values(Pixel pixel, FilmHalf& half) {
+  void record_stencil_values(Pixel pixel, const LoggedSamples& logged, FilmHalf& half) {
     const Resolution resolution = prefixes_.resolution();
     const auto offsets = stencil_offsets(stencil_);
     PartValues sum;
@@ -197,7 +222,10 @@ class GradientStochasticLightcuts final : public Integrator {
       ++count;
     }
     sum *= 1 / static_cast<float>(count);
-    record(half, pixel, sum);
+    PathLog memory;
+    PathLog* const log = begin_log(logged, pixel, memory);
+    if (log) append_group_logs(pixel, count, *log);
+    record(half, pixel, sum, log);
 
     const auto difference = [&](Pixel step, std::size_t forward, std::size_t backward, MomentImage& moments) {
       if (!resolution.contains(pixel + step)) return;
@@ -209,6 +237,17 @@ class GradientStochasticLightcuts final : public Integrator {
     };
     difference({1, 0}, k_right, k_left, half.dx);
     difference({0, 1}, k_lower, k_upper, half.dy);
+  }
+
+  void append_group_logs(Pixel pixel, int groups, PathLog& log) const {
+    const Resolution resolution = prefixes_.resolution();
+    const auto offsets = stencil_offsets(stencil_);
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      const Pixel base{pixel.x - offsets[k].x, pixel.y - offsets[k].y};
+      if (!resolution.contains(base)) continue;
+      log.note(happening::Group{base, groups});
+      log.append(stencil_logs_[stencil_index(resolution.index(base), k)], 1 / static_cast<float>(groups));
+    }
   }
 
   /// Runs body(group, selector, cost) for all groups in parallel.
@@ -236,6 +275,9 @@ class GradientStochasticLightcuts final : public Integrator {
   GatherSettings gather_;
   Image<CameraPrefix> prefixes_;
   std::vector<PartValues> stencil_values_;  // per base pixel and offset
+  // The same where samples are logged: of prefixes_ and stencil_values_.
+  Image<PathLog> prefix_logs_;
+  std::vector<PathLog> stencil_logs_;
   GradientCost cost_;
 };
 

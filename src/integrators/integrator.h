@@ -9,6 +9,8 @@
 #include "core/parameters.h"
 #include "film/film.h"
 #include "integrators/memory_plan.h"
+#include "integrators/pass_schedule.h"
+#include "integrators/path_log.h"
 #include "samplers/sampler.h"
 
 namespace gradslc {
@@ -59,10 +61,20 @@ class Integrator {
   /// Adds one sample per pixel to `film`, to the half that the pass belongs to, and closes the set where it ends.
   /// Passes may be rendered in any order of sets; the same pass adds the same bits for any number of threads.
   virtual void render_pass(std::uint32_t pass, Film& film) = 0;
+  /// From now on, the probe's sample is logged when its pass is rendered; other pixels of that pass may be left out.
+  void set_probe(const Probe& probe) { probe_ = probe; }
   /// What prepare() and render_pass() would take with these settings; renders nothing. Only after describe().
   virtual MemoryPlan plan_memory(const Scene&, const RenderSettings&) const { return {}; }
   virtual IntegratorTraits traits() const = 0;  ///< valid after prepare()
   virtual IntegratorStatistics statistics() const = 0;
+
+ protected:
+  LoggedSamples logged_samples(const PassSlot& slot, const Film& film) const {
+    return {film.layers().debug, probe_, slot.pass};
+  }
+
+ private:
+  Probe probe_;
 };
 
 struct IntegratorEntry {

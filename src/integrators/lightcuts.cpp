@@ -42,6 +42,7 @@ class Lightcuts final : public Integrator {
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+    const LoggedSamples logged = logged_samples(slot, film);
     const LightTree& tree = source_.vpls_of(slot);
     if (represented_set_ != source_.sets()) choose_representatives(slot, tree);
     const Resolution resolution = film.resolution();
@@ -49,15 +50,19 @@ class Lightcuts final : public Integrator {
     cost_ += parallel_sum<CutCost>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
       CutCost cost;
       EstimatedCut cut;
+      PathLog log;
       for (std::size_t i = begin; i < end; ++i) {
+        const Pixel pixel = resolution.pixel(i);
+        if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
+        context.log = logged.begin(pixel, log);
         const CameraPrefix prefix = trace_camera_prefix(context, position);
         PartValues radiance = prefix.radiance;
         if (prefix.gather) {
           gather_without_vpls(context, prefix, gather_, radiance);
           gather_cut(context, *prefix.gather, tree, cut, cost).collect(prefix.throughput, radiance);
         }
-        record(half, resolution.pixel(i), radiance);
+        record(half, pixel, radiance, context);
         cost.rays += context.rays;
       }
       return cost;
@@ -117,8 +122,27 @@ class Lightcuts final : public Integrator {
     ++cost.gathers;
     cost.clusters += cut.clusters.size(), cost.representatives += cut.representatives;
     cost.node_evaluations += cut.evaluated.size();
+    if (context.log) log_cut(context, x, tree, cut);
     const auto on_emitter = [&](std::uint32_t vpl) { return vpls[vpl].vertex == 0; };
     return {.direct = cut.total(on_emitter), .vpl = cut.total(std::not_fn(on_emitter))};
+  }
+
+  /// Connections are told of when the cut is known: what a representative stands for changes while it is refined.
+  void log_cut(const PathContext& context, const PathVertex& x, const LightTree& tree, const EstimatedCut& cut) const {
+    context.log->add_selection(static_cast<float>(cut.clusters.size()), static_cast<float>(cut.evaluated.size()));
+    const GatherPoint point{x, context.lobes};
+    const VplView vpls{context.scene.materials(), tree.set};
+    PathContext again = context;  // its rays have been counted
+    for (const EstimatedCluster& cluster : cut.clusters) {
+      const auto [index, flux] = cluster.representative;
+      const Vpl& vpl = vpls[index];
+      if (!vpl_may_count(context, x, vpl)) continue;
+      const Rgb contribution = unshadowed_contribution(point, vpls, vpl, gather_.bound);
+      if (is_black(contribution)) continue;
+      log_connection(context, x, vpls, index, gather_.bound, contribution,
+                     connection_transmittance(again, connection_segment(point, vpl), connection_edges(x, vpl)),
+                     flux / luminance(vpl.flux));
+    }
   }
 
   ErrorLimits limits_;

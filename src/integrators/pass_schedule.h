@@ -13,13 +13,14 @@ struct PassSlot {
   std::uint32_t set = 0;     ///< VPL set within the half
   std::uint32_t sample = 0;  ///< pass within the half: index of the half's sample sequences
   bool closes_set = true;    ///< last pass of its set (every pass, where one set serves the whole run)
+  std::uint32_t pass = 0;    ///< of the whole run
 };
 
 /// `passes_per_set` 0: one set for the whole run, shared by both halves.
 constexpr PassSlot pass_slot(std::uint32_t pass, std::uint32_t passes_per_set) {
-  if (passes_per_set == 0) return {static_cast<int>(pass % 2), 0, pass / 2, true};
+  if (passes_per_set == 0) return {static_cast<int>(pass % 2), 0, pass / 2, true, pass};
   const std::uint32_t set = pass / passes_per_set, within = pass % passes_per_set;
-  return {static_cast<int>(set % 2), set / 2, set / 2 * passes_per_set + within, within + 1 == passes_per_set};
+  return {static_cast<int>(set % 2), set / 2, set / 2 * passes_per_set + within, within + 1 == passes_per_set, pass};
 }
 
 /// What a seed is used for: streams of different purposes are independent.

@@ -36,6 +36,42 @@ Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) 
   return passage;
 }
 
+void log_vertex(const PathContext& context, const PathVertex& vertex, Rgb throughput) {
+  const float side = vertex.wo.z < 0 ? -1.0f : 1.0f;
+  context.log->note(
+      happening::Vertex{.edges = vertex.edges,
+                        .position = vertex.point.position,
+                        .shading_normal = as_normal(vertex.to_world({0, 0, side})),
+                        .material = vertex.point.material,
+                        .connectable_energy = vertex.bsdf.energy(vertex.wo, context.lobes.only_connectable()),
+                        .other_energy = vertex.bsdf.energy(vertex.wo, context.lobes.only_other()),
+                        .pass_probability = vertex.bsdf.pass_probability(vertex.wo),
+                        .throughput = throughput});
+}
+
+void log_next_event(const PathContext& context, const PathVertex& vertex, const DirectSample& light,
+                    const Passage& passage, float mis_weight, const PartValues& brought, bool by_parts) {
+  happening::NextEvent event{.edges = vertex.edges + 1 + passage.crossings,
+                             .direction = light.wi,
+                             .radiance = light.radiance,
+                             .pdf_solid_angle = light.pdf_solid_angle,
+                             .delta = light.delta,
+                             .mis_weight = mis_weight,
+                             .transmittance = passage.transmittance};
+  if (!light.infinite) event.position = light.position;
+  context.log->add(event, brought, by_parts);
+}
+
+void log_emitter_hit(const PathContext& context, const Ray& ray, const std::optional<SurfacePoint>& hit, int edges,
+                     Rgb weighted_radiance, const PartValues& brought, bool by_parts) {
+  const Rgb radiance = hit ? emitted_radiance(context, *hit, -ray.direction, RayOrigin())
+                           : environment_radiance(context, ray.direction, RayOrigin());
+  happening::EmitterHit event{
+      .edges = edges, .radiance = radiance, .mis_weight = luminance(weighted_radiance) / luminance(radiance)};
+  if (hit) event.position = hit->position;
+  context.log->add(event, brought, by_parts);
+}
+
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation) {
   const float cos_over_pdf = std::abs(wi.z) / pdf_solid_angle;

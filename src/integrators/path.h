@@ -6,6 +6,7 @@
 
 #include "integrators/integrator.h"
 #include "integrators/pass_schedule.h"
+#include "integrators/path_log.h"
 #include "integrators/throughput.h"
 #include "scene/scene.h"
 #include "vpl/bounding.h"
@@ -19,6 +20,7 @@ struct PathContext {
   LobeSelection lobes;
   SampleStream random;
   std::uint64_t rays = 0;  ///< counted here
+  PathLog* log = nullptr;  ///< is told what happens, if there is one
 };
 
 /// A pixel's sample with random numbers of its own, as methods without groups take it: jittered within the pixel.
@@ -90,12 +92,27 @@ inline Rgb connection_transmittance(PathContext& context, const Ray& segment, in
   return connect(context, segment, edges, context.settings.max_depth).transmittance;
 }
 
+// What the context's log is told. Only where there is one; `brought` is what was added to the path's radiance.
+void log_vertex(const PathContext& context, const PathVertex& vertex, Rgb throughput);
+void log_next_event(const PathContext& context, const PathVertex& vertex, const DirectSample& light,
+                    const Passage& passage, float mis_weight, const PartValues& brought, bool by_parts);
+void log_emitter_hit(const PathContext& context, const Ray& ray, const std::optional<SurfacePoint>& hit, int edges,
+                     Rgb weighted_radiance, const PartValues& brought, bool by_parts);
+
 /// Splits the value of the selected lobes towards wi; each times |cos| over pdf.
 LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation);
 /// The same for a sampled direction.
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
                          const Compensation* compensation);
+
+/// What light that arrives through a throughput adds to the path's radiance.
+template <class Throughput>
+PartValues brought_through(const Throughput& throughput, Rgb radiance) {
+  PartValues brought;
+  throughput.collect(radiance, brought);
+  return brought;
+}
 
 /// Next-event estimation at a vertex, through crossings, with multiple importance sampling against a ray sampled from
 /// the same lobes: adds to `radiance` what counts of paths with at most `max_edges` edges.
@@ -111,11 +128,18 @@ void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSe
   const Throughput scattered = throughput.scattered(lobe_weights(vertex, wi, pdf, lobes, compensation));
   if (scattered.is_black()) return;
   const Passage passage = connect(context, shadow_ray(vertex.point, *light), vertex.edges + 1, max_edges);
-  if (is_black(passage.transmittance)) return;
+  if (is_black(passage.transmittance)) {
+    if (context.log) log_next_event(context, vertex, *light, passage, 0, PartValues(), Throughput::k_by_lobes);
+    return;
+  }
   // The sampled ray reaches the emitter if it also passes all crossings.
   const float mis =
       light->delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, wi, lobes) * passage.probability);
-  scattered.transmitted(passage.transmittance).scaled(mis).collect(light->radiance, radiance);
+  const Throughput arriving = scattered.transmitted(passage.transmittance).scaled(mis);
+  arriving.collect(light->radiance, radiance);
+  if (context.log)
+    log_next_event(context, vertex, *light, passage, mis, brought_through(arriving, light->radiance),
+                   Throughput::k_by_lobes);
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
@@ -134,7 +158,12 @@ std::optional<SurfacePoint> trace_edge(PathContext& context, const Ray& ray, con
   ++context.rays;
   ++edges;
   auto hit = context.scene.intersect(ray);
-  if (context.settings.components.includes(edges)) throughput.collect(emission(hit), radiance);
+  if (context.settings.components.includes(edges)) {
+    const Rgb emitted = emission(hit);
+    throughput.collect(emitted, radiance);
+    if (context.log && !is_black(emitted))
+      log_emitter_hit(context, ray, hit, edges, emitted, brought_through(throughput, emitted), Throughput::k_by_lobes);
+  }
   if (edges == max_edges) hit.reset();
   return hit;
 }
@@ -160,6 +189,7 @@ bool passes_on(const PathContext& context, const PathVertex& vertex, Throughput&
     throughput = throughput.scaled(1 / (1 - pass));
     return false;
   }
+  if (context.log) context.log->note(happening::Crossing{});
   throughput = throughput.transmitted(vertex.bsdf.straight_transmittance() / pass);
   origin.pdf_solid_angle *= pass;
   ray = pass_on(ray, vertex.point);
@@ -207,6 +237,7 @@ void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput thro
                 int roulette_depth, PartValues& radiance) {
   while (const auto hit = next_hit(context, ray, origin, edges, max_edges, throughput, radiance)) {
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
+    if (context.log) log_vertex(context, vertex, throughput.total());
     if (passes_on(context, vertex, throughput, ray, origin)) continue;
     if (!scatter(context, vertex, context.lobes, max_edges, nullptr, throughput, ray, origin, radiance)) return;
     if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;

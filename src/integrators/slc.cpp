@@ -77,22 +77,28 @@ class StochasticLightcuts final : public Integrator {
  private:
   void render_pixels(const PassSlot& slot, const LightTree& tree, Film& film) {
     const Resolution resolution = film.resolution();
+    const LoggedSamples logged = logged_samples(slot, film);
     FilmHalf& half = film.half(slot.half);
     std::mutex cost_mutex;
     parallel_for(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
       CutSelector selector(tree, cut_limits_, gather_.bound);
+      PathLog log;
       std::uint64_t rays = 0;
       for (std::size_t i = begin; i < end; ++i) {
+        const Pixel pixel = resolution.pixel(i);
+        if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
+        context.log = logged.begin(pixel, log);
         const CameraPrefix prefix = trace_camera_prefix(context, position);
         PartValues radiance = prefix.radiance;
         if (prefix.gather) {
           gather_without_vpls(context, prefix, gather_, radiance);
           const Receiver receiver = make_receiver({*prefix.gather, context.lobes});
           const auto chosen = selector.select({&receiver, 1}, context.random);
+          log_selection(context.log, selector.last_cost());
           gather_chosen(context, *prefix.gather, tree, chosen, gather_.bound).collect(prefix.throughput, radiance);
         }
-        record(half, resolution.pixel(i), radiance);
+        record(half, pixel, radiance, context);
         rays += context.rays;
       }
       const std::lock_guard lock(cost_mutex);
@@ -139,6 +145,7 @@ class StochasticLightcuts final : public Integrator {
     constexpr std::uint64_t k_image = ~std::uint64_t{0};
     const BlockPartition partition(film.resolution(), {tile_.size, tile_.size},
                                    tile_stream(k_image).get2(Use::group_offset));
+    const LoggedSamples logged = logged_samples(slot, film);
     FilmHalf& half = film.half(slot.half);
     std::mutex cost_mutex;
     constexpr std::size_t k_tiles_per_chunk = 4;  // memory is kept from tile to tile
@@ -148,18 +155,23 @@ class StochasticLightcuts final : public Integrator {
       if (reach_ > 0) behind = [&gatherer](auto&&... at) { return gatherer.gather_behind(at...); };
       std::vector<TilePixel> pixels;
       std::vector<Receiver> receivers;
+      std::vector<PathLog> logs;
       std::uint64_t rays = 0;
       for (std::size_t tile = begin; tile < end; ++tile) {
         const auto [first, size] = partition.block(tile);
+        if (logged.skips(first, size)) continue;
         pixels.clear(), receivers.clear();
+        if (logged.any()) logs.resize(size.pixels());
         for (std::size_t i = 0; i < size.pixels(); ++i) {
-          const std::size_t index = film.resolution().index(first + size.pixel(i));
-          auto [context, position] =
-              make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index, camera);
+          const Pixel pixel = first + size.pixel(i);
+          auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot,
+                                                       film.resolution().index(pixel), camera);
+          if (logged.any()) context.log = logged.begin(pixel, logs[i]);
           const auto& prefix = pixels.emplace_back(context, trace_camera_prefix(context, position)).prefix;
           if (prefix.gather) receivers.push_back(make_receiver({*prefix.gather, context.lobes}));
         }
         gatherer.begin_tile(receivers, tile_stream(tile).get1_double(Use::tile_comb));
+        const float node_share = static_cast<float>(gatherer.tile_nodes()) / static_cast<float>(size.pixels());
         for (std::size_t i = 0; i < size.pixels(); ++i) {
           auto& [context, prefix] = pixels[i];
           const Pixel pixel = first + size.pixel(i);
@@ -170,7 +182,8 @@ class StochasticLightcuts final : public Integrator {
             const double u = context.random.get1_double(Use::candidate_choice);
             gatherer.gather(context, *prefix.gather, u).collect(prefix.throughput, radiance);
           }
-          record(half, pixel, radiance);
+          if (context.log) context.log->add_selection(0, node_share);
+          record(half, pixel, radiance, context);
           note(pixel, luminance(radiance.total()), brought);
           rays += context.rays;
         }

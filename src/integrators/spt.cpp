@@ -20,14 +20,22 @@ class PathTracer final : public Integrator {
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, 1);
+    const LoggedSamples logged = logged_samples(slot, film);
     const bool labelled = film.layers().parts;
     const Resolution resolution = film.resolution();
     FilmHalf& half = film.half(slot.half);
     rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
       std::uint64_t rays = 0;
+      PathLog log;
       for (std::size_t i = begin; i < end; ++i) {
-        record(half, resolution.pixel(i),
-               labelled ? sample<LabelledThroughput>(slot, i, rays) : sample<PlainThroughput>(slot, i, rays));
+        const Pixel pixel = resolution.pixel(i);
+        if (logged.skips(pixel)) continue;
+        auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, i);
+        context.log = logged.begin(pixel, log);
+        const PartValues radiance =
+            labelled ? sample<LabelledThroughput>(context, position) : sample<PlainThroughput>(context, position);
+        record(half, pixel, radiance, context);
+        rays += context.rays;
       }
       return rays;
     });
@@ -39,14 +47,12 @@ class PathTracer final : public Integrator {
 
  private:
   template <class Throughput>
-  PartValues sample(const PassSlot& slot, std::size_t index, std::uint64_t& rays) const {
-    auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, index);
+  PartValues sample(PathContext& context, Vec2 position) const {
     const PerspectiveCamera& camera = scene_->camera();
     const Ray ray = camera.has_lens() ? camera.generate_ray(position, context.random.get2(Use::lens))
                                       : camera.generate_ray(position);
     PartValues radiance;
     trace_path(context, ray, {.position = ray.origin}, Throughput(), 0, settings_.max_depth, roulette_depth_, radiance);
-    rays += context.rays;
     return radiance;
   }
 

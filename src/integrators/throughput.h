@@ -21,6 +21,7 @@ struct PlainThroughput {
   PlainThroughput transmitted(Rgb transmittance) const { return {value * transmittance}; }
   bool is_black() const { return gradslc::is_black(value); }
   float largest() const { return max_channel(value); }
+  Rgb total() const { return value; }
   /// Adds light that arrives through this throughput; all of it is booked as one part.
   void collect(Rgb radiance, PartValues& sum) const { sum[Part::direct] += value * radiance; }
 };
@@ -47,7 +48,8 @@ struct LabelledThroughput {
     return gradslc::is_black(prefix) && gradslc::is_black(gathered) && gradslc::is_black(vpl) &&
            gradslc::is_black(specular);
   }
-  float largest() const { return max_channel(prefix + gathered + vpl + specular); }
+  float largest() const { return max_channel(total()); }
+  Rgb total() const { return prefix + gathered + vpl + specular; }
   void collect(Rgb radiance, PartValues& sum) const {
     sum[Part::prefix] += prefix * radiance;
     sum[Part::direct] += gathered * radiance;

@@ -6,12 +6,14 @@ namespace gradslc {
 
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
+  tile_nodes_ = 0;
   if (!receivers.empty()) {
     const TileLaw law(receivers, {.defensive = parameters_.defensive,
                                   .cosine_floor = parameters_.cosine_floor,
                                   .bound = bound_,
                                   .reach = reach_});
-    cost_.nodes += draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
+    tile_nodes_ = draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
+    cost_.nodes += tile_nodes_;
   }
   candidates_.assign(tree_.set, drawn_, parameters_.candidates);
   cost_.candidates += drawn_.size();
@@ -37,6 +39,7 @@ VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, Vert
   candidates_.evaluate(receiver, bound_);
   cost_.evaluations += candidates_.size();
   candidates_.choose(samples, u, choice_);
+  if (context.log) context.log->add_selection(static_cast<float>(choice_.size()), 0);
   VplLight light;
   for (const CandidateDraw& draw : choice_) {
     const Vpl& vpl = vpls_[candidates_.vpl(draw.candidate)];
@@ -47,13 +50,18 @@ VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, Vert
     if (is_black(contribution)) continue;
     const Ray segment = connection_segment(point, vpl);
     const Rgb transmittance = connect(context, segment, connection_edges(x, vpl), max_edges).transmittance;
-    if (is_black(transmittance)) continue;
-    float weight = static_cast<float>(draw.count / (samples * draw.probability));
+    auto drawn = static_cast<float>(draw.count / (samples * draw.probability));
     if (left_over) {
       const Vec3 wi = x.to_local(normalize(vpl.position - x.point.position));
-      weight *= left_over->weight(x.bsdf.eval(x.wo, wi, context.lobes.only_connectable()));
+      drawn *= left_over->weight(x.bsdf.eval(x.wo, wi, context.lobes.only_connectable()));
     }
-    light.from(vpl) += contribution * transmittance * weight;
+    if (context.log) {
+      const float candidate_weight = candidates_.weight(draw.candidate);
+      log_connection(context, x, vpls_, candidates_.vpl(draw.candidate), bound_, contribution / candidate_weight,
+                     transmittance, candidate_weight * drawn, candidate_weight);
+    }
+    if (is_black(transmittance)) continue;
+    light.from(vpl) += contribution * transmittance * drawn;
   }
   return light;
 }

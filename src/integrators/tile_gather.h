@@ -46,6 +46,8 @@ class TileGatherer {
   /// A VertexGather, of one draw, at a vertex behind a ray sent from one of the tile's gather points.
   Rgb gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges);
   const TileCost& cost() const { return cost_; }
+  /// Nodes that were visited for the tile.
+  std::uint64_t tile_nodes() const { return tile_nodes_; }
 
  private:
   VplLight sum_draws(PathContext& context, const PathVertex& x, VertexRange range, const Compensation* left_over,
@@ -59,6 +61,7 @@ class TileGatherer {
   CandidateSet candidates_;
   std::vector<CandidateDraw> choice_;
   TileCost cost_;
+  std::uint64_t tile_nodes_ = 0;
 };
 
 }  // namespace gradslc

@@ -30,6 +30,7 @@ class VplSampler final : public Integrator {
 
   void render_pass(std::uint32_t pass, Film& film) override {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+    const LoggedSamples logged = logged_samples(slot, film);
     const VplSet& set = source_.vpls_of(slot).set;
     if (selection_ == Selection::power) {
       std::vector<double> weights;
@@ -41,8 +42,14 @@ class VplSampler final : public Integrator {
     FilmHalf& half = film.half(slot.half);
     rays_ += parallel_sum<std::uint64_t>(resolution.pixels(), 64, [&](std::size_t begin, std::size_t end) {
       std::uint64_t rays = 0;
+      PathLog log;
       for (std::size_t i = begin; i < end; ++i) {
-        record(half, resolution.pixel(i), sample(slot, set, i, rays));
+        const Pixel pixel = resolution.pixel(i);
+        if (logged.skips(pixel)) continue;
+        auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
+        context.log = logged.begin(pixel, log);
+        record(half, pixel, sample(context, position, set), context);
+        rays += context.rays;
       }
       return rays;
     });
@@ -60,15 +67,13 @@ class VplSampler final : public Integrator {
   }
 
  private:
-  PartValues sample(const PassSlot& slot, const VplSet& set, std::size_t index, std::uint64_t& rays) const {
-    auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, index);
+  PartValues sample(PathContext& context, Vec2 position, const VplSet& set) const {
     const CameraPrefix prefix = trace_camera_prefix(context, position);
     PartValues radiance = prefix.radiance;
     if (prefix.gather) {
       gather_without_vpls(context, prefix, gather_, radiance);
       gather_vpls(context, *prefix.gather, set).collect(prefix.throughput, radiance);
     }
-    rays += context.rays;
     return radiance;
   }
 
@@ -77,10 +82,12 @@ class VplSampler final : public Integrator {
     const std::span<const Vpl> vpls = set.vpls;
     if (vpls.empty()) return light;
     if (selection_ == Selection::all) {
-      for (const Vpl& vpl : vpls) light.from(vpl) += connect(context, x, set, vpl);
+      if (context.log) context.log->add_selection(static_cast<float>(vpls.size()), 0);
+      for (std::size_t i = 0; i < vpls.size(); ++i) light.from(vpls[i]) += connect(context, x, set, i, 1);
       return light;
     }
     if (selection_ == Selection::power && by_power_.total() == 0) return light;
+    if (context.log) context.log->add_selection(static_cast<float>(samples_), 0);
     for (int s = 0; s < samples_; ++s) {
       const double u = context.random.get1_double(Use::vpl_choice, static_cast<std::uint32_t>(s));
       std::size_t chosen = static_cast<std::size_t>(u * static_cast<double>(vpls.size()));
@@ -89,18 +96,24 @@ class VplSampler final : public Integrator {
         const auto drawn = by_power_.sample(u);
         chosen = drawn.index, probability = drawn.probability;
       }
-      const Vpl& vpl = vpls[chosen];
-      light.from(vpl) += connect(context, x, set, vpl) * static_cast<float>(1 / (probability * samples_));
+      light.from(vpls[chosen]) += connect(context, x, set, chosen, static_cast<float>(1 / (probability * samples_)));
     }
     return light;
   }
 
-  Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, const Vpl& vpl) const {
+  Rgb connect(PathContext& context, const PathVertex& x, const VplSet& set, std::size_t index, float weight) const {
+    const Vpl& vpl = set.vpls[index];
     if (!vpl_may_count(context, x, vpl)) return Rgb();
     const GatherPoint point{x, context.lobes};
-    const Rgb contribution = unshadowed_contribution(point, {context.scene.materials(), set}, vpl, gather_.bound);
+    const VplView view{context.scene.materials(), set};
+    const Rgb contribution = unshadowed_contribution(point, view, vpl, gather_.bound);
     if (is_black(contribution)) return Rgb();
-    return contribution * connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    const Rgb transmittance =
+        connection_transmittance(context, connection_segment(point, vpl), connection_edges(x, vpl));
+    if (context.log)
+      log_connection(context, x, view, static_cast<std::uint32_t>(index), gather_.bound, contribution, transmittance,
+                     weight);
+    return contribution * transmittance * weight;
   }
 
   Selection selection_ = Selection::all;

@@ -105,6 +105,7 @@ void VplSource::append_counters(std::vector<IntegratorStatistics::Counter>& coun
   counters.push_back({"vpl_sets", static_cast<double>(sets_)});
   counters.push_back({"vpls_per_set", sets_ > 0 ? static_cast<double>(vpls_) / static_cast<double>(sets_) : 0});
   counters.push_back({"vpl_bound", static_cast<double>(bound_)});
+  counters.push_back({"light_rays", static_cast<double>(rays_)});
   counters.push_back({"trace_seconds", trace_seconds_});
   counters.push_back({"build_seconds", build_seconds_});
 }

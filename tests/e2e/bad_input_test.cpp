@@ -73,7 +73,23 @@ TEST_F(BadInput, CommandLine) {
   expect_refusal({"render", "scene.xml", "--threads", "-1"}, {"--threads", "-1"});
   expect_refusal({"render", "scene.xml", "--components", "drect"}, {"--components", "drect", "\"direct\""});
   expect_refusal({"render", "scene.xml", "--sampler", "sobel"}, {"--sampler", "sobel", "\"sobol\""});
+  expect_refusal({"render", "scene.xml", "--debug", "-o", "a.png"}, {"a.png", "--debug", ".exr"});
   expect_refusal({"list", "shfts"}, {"shfts", "\"shifts\""});
+}
+
+TEST_F(BadInput, Replay) {
+  for (const char* text : {"3", "3,4", "3,4,", "3,4,0,0", "3,4,5x", "a,4,0", "-1,4,0", "3,4,-1", "3;4;0", " 3,4,0",
+                           "3,4,4294967296", "2147483648,0,0"})
+    expect_refusal({"render", "scene.xml", std::string("--replay=") + text},
+                   {"--replay", fmt::format("\"{}\"", text), "X,Y,PASS"});
+  expect_refusal({"render", "scene.xml", "--replay", "16,0,0"}, {"16,0", "outside", "0 to 15", "0 to 11"});
+  expect_refusal({"render", "scene.xml", "--replay", "0,12,0"}, {"0,12", "outside"});
+  for (const std::vector<std::string>& other : std::vector<std::vector<std::string>>{
+           {"--spp", "4"}, {"--seconds", "1"}, {"-o", "a.exr"}, {"--debug"}, {"--json"}}) {
+    std::vector<std::string> arguments{"render", "scene.xml", "--replay", "3,4,0"};
+    arguments.insert(arguments.end(), other.begin(), other.end());
+    expect_refusal(arguments, {"--replay", other[0]});
+  }
 }
 
 TEST_F(BadInput, Method) {

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "core/exr.h"
 #include "e2e/program.h"
 
 namespace gradslc {
@@ -119,6 +121,89 @@ TEST_F(Commands, OptionsReachTheRenderer) {
   const json sized = json::parse(run({"render", "scene.xml", "--spp", "1", "--width", "8", "--json"}).output);
   EXPECT_EQ(sized.at("width"), 8);
   EXPECT_EQ(sized.at("height"), 6);
+}
+
+constexpr const char* k_logged_methods[] = {
+    "spt",
+    R"({"integrator": "vpl", "vpl": {"light_paths": 40}})",
+    R"({"integrator": "lightcuts", "vpl": {"light_paths": 400}})",
+    R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
+    R"({"integrator": "slc", "gather": "tile", "vpl": {"light_paths": 400}})",
+    R"({"integrator": "gradslc", "vpl": {"light_paths": 400}})",
+    R"({"integrator": "gradslc", "shift": "random_replay", "vpl": {"light_paths": 400}})"};
+
+/// The line of a replay that begins with `name`, without it.
+std::string replayed(const std::string& text, const std::string& name) {
+  const std::size_t begin = text.rfind("\n" + name + " ");
+  EXPECT_NE(begin, text.npos) << name << ": " << text;
+  if (begin == text.npos) return {};
+  const std::size_t value = begin + name.size() + 2;
+  return text.substr(value, text.find('\n', value) - value);
+}
+
+TEST_F(Commands, DebugAddsLayersAndLeavesTheImage) {
+  for (const std::string method : k_logged_methods) {
+    const auto render = [&](std::vector<std::string> options) {
+      options.insert(options.begin(), {"render", "scene.xml", "--spp", "6", "--method", method, "-o", "a.exr"});
+      const Outcome outcome = run(options);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+      return std::pair(outcome, read_exr(folder_.path() / "a.exr"));
+    };
+    const auto [plain_outcome, plain] = render({});
+    const auto [outcome, debug] = render({"--debug", "--json"});
+    EXPECT_EQ(plain_outcome.errors.find("--replay"), std::string::npos);
+    EXPECT_EQ(debug.image, plain.image) << method;
+    for (const auto& [name, layer] : plain.layers) {
+      ASSERT_TRUE(debug.layers.contains(name)) << name;
+      EXPECT_FALSE(name.starts_with("debug_"));
+    }
+    EXPECT_EQ(debug.layers.size(), plain.layers.size() + 8) << method;
+    const json largest = json::parse(outcome.output).at("largest_contribution");
+    float most = 0;
+    for (const float value : std::get<Image<float>>(debug.layers.at("debug_contribution")))
+      most = std::max(most, value);
+    EXPECT_FLOAT_EQ(largest.at("luminance").get<float>(), most) << method;
+
+    const Outcome replay =
+        run({"render", "scene.xml", "--method", method, "--replay", largest.at("replay").get<std::string>()});
+    EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+    EXPECT_NE(replay.output.find("<- largest"), std::string::npos) << method << "\n" << replay.output;
+    EXPECT_TRUE(replayed(replay.output, "sum of the contributions").ends_with(fmt::format("{:.6g}", most)))
+        << method << "\n"
+        << replay.output;
+  }
+}
+
+TEST_F(Commands, DebugSaysWhatToReplay) {
+  const Outcome outcome = run({"render", "scene.xml", "--spp", "2", "--debug", "--parts"});
+  EXPECT_NE(outcome.errors.find("largest contribution: luminance"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("--replay "), std::string::npos) << outcome.errors;
+}
+
+TEST_F(Commands, ReplayPrintsThePixelsValueToTheLastBit) {
+  for (const std::string method : k_logged_methods)
+    for (const bool parts : {false, true}) {
+      std::vector<std::string> options{"render", "scene.xml", "--seed", "5", "--method", method};
+      if (parts) options.push_back("--parts");
+      std::vector<std::string> render = options;
+      render.insert(render.end(), {"--spp", "1", "-o", "a.exr"});
+      ASSERT_EQ(run(render).exit_code, 0);
+      const ExrImage image = read_exr(folder_.path() / "a.exr");
+      for (const Pixel pixel : {Pixel{8, 9}, Pixel{15, 11}, Pixel{0, 0}}) {
+        std::vector<std::string> replay = options;
+        replay.insert(replay.end(), {"--replay", fmt::format("{},{},0", pixel.x, pixel.y)});
+        const Outcome outcome = run(replay);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+        const Rgb value = std::get<RgbImage>(image.layers.at("primal"))[pixel];
+        EXPECT_EQ(replayed(outcome.output, "value"), fmt::format("({}, {}, {})", value.r, value.g, value.b))
+            << method << "\n"
+            << outcome.output;
+        if (pixel.x == 8) {
+          EXPECT_NE(outcome.output.find("\nvertex 1 at"), std::string::npos) << outcome.output;
+        }
+      }
+    }
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.exr", "a.json", "scene.xml"}));
 }
 
 TEST_F(Commands, CompareOfAnImageWithItselfIsZero) {

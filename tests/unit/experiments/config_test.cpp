@@ -99,6 +99,7 @@ TEST_F(Config, HasDefaults) {
   EXPECT_EQ(experiment->name, "test-config");
   EXPECT_EQ(experiment->repeats, 1);
   EXPECT_FALSE(experiment->parts);
+  EXPECT_FALSE(experiment->debug);
   EXPECT_EQ(experiment->settings.components, Components{});
   EXPECT_EQ(experiment->settings.sampler, RenderSettings{}.sampler);
   EXPECT_EQ(experiment->scenes[0].name, "scene");
@@ -109,11 +110,12 @@ TEST_F(Config, HasDefaults) {
 
 TEST_F(Config, ReadsTheOtherKeys) {
   const std::optional<Experiment> experiment = load(config_with(
-      R"({"sampler": "independent", "parts": true, "description": "why", "reference": {"file": "reference.exr"},
+      R"({"sampler": "independent", "parts": true, "debug": true, "description": "why", "reference": {"file": "reference.exr"},
           "methods": [{"integrator": "slc", "reconstruction": "l2"}]})"));
   ASSERT_TRUE(experiment) << problems_.all().front().what();
   EXPECT_EQ(experiment->settings.sampler, SamplerKind::independent);
   EXPECT_TRUE(experiment->parts);
+  EXPECT_TRUE(experiment->debug);
   EXPECT_EQ(experiment->description, "why");
   EXPECT_EQ(experiment->reference.kind, ReferencePlan::Kind::file);
   EXPECT_EQ(experiment->reference.file, folder_.path() / "reference.exr");

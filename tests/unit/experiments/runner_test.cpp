@@ -256,7 +256,7 @@ TEST_F(RunnerTest, ProgressRisesToOne) {
 TEST_F(RunnerTest, RenderOneMethod) {
   const Scene scene = fakes::fake_scene();
   const Makers makers = fakes::makers(world, speeds);
-  const RenderResult result = render_method(scene, fakes::method("B", "fake"), {}, k_seconds, false, makers, {});
+  const RenderResult result = render_method(scene, fakes::method("B", "fake"), {}, k_seconds, {}, makers, {});
   EXPECT_LE(result.wall_seconds, 10 + 1e-9) << "the last reconstruction was predicted";
   EXPECT_GT(result.wall_seconds, 10 - 0.1 - 1e-9);
   EXPECT_NEAR(result.wall_seconds, result.prepare_seconds + result.render_seconds + result.reconstruct_seconds, 1e-12);

@@ -19,7 +19,7 @@ MethodRun make_run(World& world, const Scene& scene, const std::string& name, co
                    bool reconstructs = false) {
   const Makers makers = fakes::makers(world, {{name, speed}});
   const MethodPlan method = fakes::method(name, reconstructs ? "fake" : "none");
-  return MethodRun({name, {}, budget, false, curve_targets(budget)}, makers.integrator(method),
+  return MethodRun({name, {}, budget, {}, curve_targets(budget)}, makers.integrator(method),
                    makers.reconstruction(method), scene, makers.clock);
 }
 

@@ -24,6 +24,13 @@ Film sample_film(FilmLayers layers) {
         film.half(h).dy.add({1, 0}, value * 3);
       }
       if (layers.parts) film.half(h).part_sums[static_cast<std::size_t>(Part::specular)](1, 0) += value;
+      if (layers.debug) {
+        DebugSample sample{.pass = static_cast<std::uint32_t>(2 * set + h), .cut_size = 2, .rays = 5};
+        sample.node_evaluations = value.r;
+        sample.contribution = {10 - value.r, sample.pass, Part::specular};
+        sample.value = value;
+        film.half(h).debug.add({1, 0}, sample);
+      }
       if (h == 0 || set == 0) film.close_set(h);
     }
   film.half(1).primal.add({0, 0}, Rgb(k_infinity));
@@ -56,6 +63,22 @@ TEST(FilmLayersOfARun, AreNamedByWhatTheFilmRecorded) {
   }
   full.insert({"direct", "vpl", "compensation", "specular", "prefix"});
   EXPECT_EQ(names_of(film_layers(sample_film({.gradients = true, .parts = true}))), full);
+  full.insert({"debug_cut_size", "debug_node_evaluations", "debug_rays", "debug_contribution",
+               "debug_contribution_part", "debug_contribution_pass", "debug_sample", "debug_sample_pass"});
+  EXPECT_EQ(names_of(film_layers(sample_film({.gradients = true, .parts = true, .debug = true}))), full);
+}
+
+TEST(FilmLayersOfARun, HoldDebugImagesOfBothHalves) {
+  const auto layers = film_layers(sample_film({.debug = true}));
+  EXPECT_EQ(grey_at(layers, "debug_cut_size"), 2);
+  EXPECT_EQ(grey_at(layers, "debug_node_evaluations"), 4);
+  EXPECT_EQ(grey_at(layers, "debug_rays"), 5);
+  EXPECT_FLOAT_EQ(grey_at(layers, "debug_contribution"), 9);
+  EXPECT_EQ(grey_at(layers, "debug_contribution_part"), 3);
+  EXPECT_EQ(grey_at(layers, "debug_contribution_pass"), 0);
+  EXPECT_FLOAT_EQ(grey_at(layers, "debug_sample"), 7);
+  EXPECT_EQ(grey_at(layers, "debug_sample_pass"), 3);
+  EXPECT_EQ(grey_at(layers, "debug_sample_pass", 0), 0);
 }
 
 TEST(FilmLayersOfARun, HoldMeansVariancesAndCounts) {

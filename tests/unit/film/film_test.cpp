@@ -135,6 +135,15 @@ TEST(Moments, InvalidSamplesAreCountedAndLeftOut) {
   EXPECT_EQ(film.invalid_samples(), 3u);
 }
 
+/// Few different luminances, so that passes tie.
+DebugSample random_debug_sample(std::mt19937& random, int pass) {
+  const auto number = [&](unsigned most) { return static_cast<float>(random() % (most + 1)); };
+  DebugSample sample{.pass = static_cast<std::uint32_t>(pass), .value = Rgb(number(2))};
+  sample.cut_size = number(10), sample.node_evaluations = number(100), sample.rays = random() % 10;
+  sample.contribution = {number(2), pass, static_cast<Part>(random() % k_part_count)};
+  return sample;
+}
+
 /// Sets `begin` to `end` of a method with whole-numbered samples (so that double sums are exact), uneven counts and
 /// NaN.
 void render_random_sets(int begin, int end, Film& film) {
@@ -148,12 +157,13 @@ void render_random_sets(int begin, int end, Film& film) {
           image->add({x, x % 2}, value == 0 ? Rgb(k_nan) : Rgb(value, 2 * value, -value));
         }
     if (film.layers().parts) half.part_sums[0](0, 0) += Rgb(static_cast<float>(set));
+    if (film.layers().debug) half.debug.add({set % 3, 0}, random_debug_sample(random, set));
     film.close_set(set % 2);
   }
 }
 
 TEST(Film, MergedPartsEqualTheWhole) {
-  constexpr FilmLayers layers{.gradients = true, .parts = true};
+  constexpr FilmLayers layers{.gradients = true, .parts = true, .debug = true};
   Film whole(k_resolution, layers), merged(k_resolution, layers), rest(k_resolution, layers);
   render_random_sets(0, 40, whole);
   render_random_sets(0, 13, merged);
@@ -171,6 +181,7 @@ TEST(Film, MergedPartsEqualTheWhole) {
         for (int c = 0; c < 3; ++c) EXPECT_DOUBLE_EQ(actual[i].square_sum[c], expected[i].square_sum[c]);
       }
     }
+  for (std::size_t i = 0; i < k_resolution.pixels(); ++i) EXPECT_EQ(merged.debug()[i], whole.debug()[i]);
   EXPECT_EQ(merged.primal(), whole.primal());
   EXPECT_EQ(merged.part(Part::direct), whole.part(Part::direct));
   EXPECT_EQ(merged.invalid_samples(), whole.invalid_samples());
@@ -213,7 +224,9 @@ TEST(Film, HasOnlyTheLayersAskedFor) {
   const Film plain(k_resolution, {});
   EXPECT_TRUE(plain.half(0).dx.accumulators().empty());
   EXPECT_TRUE(plain.half(0).part_sums.empty());
-  const Film full(k_resolution, {.gradients = true, .parts = true});
+  EXPECT_TRUE(plain.half(0).debug.empty());
+  const Film full(k_resolution, {.gradients = true, .parts = true, .debug = true});
+  EXPECT_EQ(full.half(1).debug.resolution(), k_resolution);
   EXPECT_EQ(full.half(1).dy.resolution(), k_resolution);
   EXPECT_EQ(full.half(1).part_sums.size(), static_cast<std::size_t>(k_part_count));
 }
