@@ -48,6 +48,7 @@ struct VplLight {
   Rgb direct, vpl;
 
   Rgb& from(const Vpl& y) { return y.vertex == 0 ? direct : vpl; }
+  Rgb total() const { return direct + vpl; }
   void collect(Rgb throughput, PartValues& radiance) const {
     radiance[Part::direct] += throughput * direct;
     radiance[Part::vpl] += throughput * vpl;

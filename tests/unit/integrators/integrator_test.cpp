@@ -346,7 +346,7 @@ SetOfVpls set_of_vpls(const Scene& scene, const RenderSettings& settings, bool d
 TEST(DirectLightThroughVpls, HasVplsOnEmittersWhereTheyCanCount) {
   constexpr Components k_indirect{.emission = false, .direct = false};
   for (const bool mirror : {false, true}) {
-    const Scene scene = test_box({4, 4}, {.mirror = mirror});
+    const Scene scene = mirror ? test_box({4, 4}, {.mirror = true}) : closed_furnace(Rgb(0.5f), {4, 4});
     for (const bool only_indirect : {false, true}) {
       const RenderSettings settings{.max_depth = 4, .components = only_indirect ? k_indirect : Components{}};
       const SetOfVpls without = set_of_vpls(scene, settings, false), with = set_of_vpls(scene, settings, true);

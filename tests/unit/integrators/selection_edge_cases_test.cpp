@@ -107,7 +107,7 @@ TEST(OddVplSets, FullCutsOfSlcAndLightcutsAreExact) {
     PathContext path = context(c.scene, 0);
     const Receiver receiver = make_receiver({x, LobeSelection()});
     CutSelector selector(c.tree, {.size = 1000}, c.bound);
-    const Rgb slc = gather_chosen(path, x, c.tree, selector.select({&receiver, 1}, path.random), c.bound);
+    const Rgb slc = gather_chosen(path, x, c.tree, selector.select({&receiver, 1}, path.random), c.bound).total();
     EXPECT_NEAR(static_cast<double>(luminance(slc)), exact, 1e-5 * exact);
 
     for (const ErrorLimits limits : {ErrorLimits{0, 1000}, ErrorLimits{0.02f, 1000}, ErrorLimits{0, 1}}) {
@@ -159,7 +159,8 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
     Moments by_descent, by_shared_law[k_points], by_tile[k_points], by_one_candidate;
     for (std::uint32_t sample = 0; sample < k_samples; ++sample) {
       PathContext path = context(c.scene, sample);
-      const auto add = [](Moments& moments, Rgb value) {
+      const auto add = [](Moments& moments, const VplLight& light) {
+        const Rgb value = light.total();
         ASSERT_TRUE(is_finite(value));
         ASSERT_GE(luminance(value), 0);
         moments.add(static_cast<double>(luminance(value)));
