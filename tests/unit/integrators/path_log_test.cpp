@@ -22,6 +22,12 @@ const std::vector<Method>& logged_methods() {
       {"slc tile, one ray",
        "slc",
        {{"gather", "tile"}, {"compensation/pilot_passes", 0.0}, {"vpl/light_paths", 300.0}}},
+      {"slc tile, most light by compensation rays",
+       "slc",
+       {{"gather", "tile"}, {"vpl/bound", 0.3}, {"compensation/pilot_passes", 2.0}, {"vpl/light_paths", 300.0}}},
+      {"slc tile, direct light through VPLs",
+       "slc",
+       {{"gather", "tile"}, {"vpl/direct", true}, {"vpl/light_paths", 300.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 300.0}, {"stencil", "symmetric"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 300.0}, {"shift", "random_replay"}}},
@@ -174,7 +180,7 @@ TEST(PathLog, ScalesWhatItAppends) {
   part.start(3, true), log.start(3, true);
   part.add_rays(5);
   part.add_selection(4, 6);
-  part.add_vpl({.unshadowed = Rgb(8), .transmittance = Rgb(0.5f), .weight = 2});
+  part.add_vpl({.vertex = 1, .unshadowed = Rgb(8), .transmittance = Rgb(0.5f), .weight = 2});
   log.append(part, 0.25f);
   log.append(part, 0.5f);
   EXPECT_EQ(log.sample().rays, 10u);
