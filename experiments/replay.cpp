@@ -54,8 +54,8 @@ class Writer {
     return path_indent() + 1;
   }
   int write(const happening::Gather& gather) {
-    line(1, fmt::format("gathers with throughput {}", text_of(gather.throughput)));
-    return 1;
+    line(path_indent() + 1, fmt::format("gathers with throughput {}", text_of(gather.throughput)));
+    return path_indent() + 1;
   }
   int write(const happening::CompensationRay& ray) {
     end_ray();
@@ -81,16 +81,17 @@ class Writer {
     return indent;
   }
   int write(const happening::VplConnection& c) {
-    line(1, fmt::format("VPL {} at {}, {}, vertex {} of its light path: distance {:.6g}, {} edges", c.vpl,
-                        text_of(c.position), c.material ? material(*c.material) : "diffuse", c.vertex, c.distance,
-                        c.edges));
+    const int indent = path_indent() + 1;
+    line(indent, fmt::format("VPL {} at {}, {}, vertex {} of its light path: distance {:.6g}, {} edges", c.vpl,
+                             text_of(c.position), c.material ? material(*c.material) : "diffuse", c.vertex, c.distance,
+                             c.edges));
     const std::string weight = c.candidate_weight
                                    ? fmt::format("{:.6g} (as candidate {:.6g}, as drawn {:.6g})", c.weight,
                                                  *c.candidate_weight, c.weight / *c.candidate_weight)
                                    : fmt::format("{:.6g} (1 / {:.6g})", c.weight, 1 / c.weight);
-    line(2, fmt::format("unshadowed {}, of which bounding left {:.4g}; transmittance {}, weight {}",
-                        text_of(c.unshadowed), c.bounded_weight, text_of(c.transmittance), weight));
-    return 1;
+    line(indent + 1, fmt::format("unshadowed {}, of which bounding left {:.4g}; transmittance {}, weight {}",
+                                 text_of(c.unshadowed), c.bounded_weight, text_of(c.transmittance), weight));
+    return indent;
   }
   int write(const happening::Group& group) {
     line(0, fmt::format("group of pixel {},{}: one of {} that hold the pixel, whose mean is the sample", group.base.x,

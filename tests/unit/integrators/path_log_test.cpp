@@ -24,7 +24,7 @@ const std::vector<Method>& logged_methods() {
        {{"gather", "tile"}, {"compensation/pilot_passes", 0.0}, {"vpl/light_paths", 300.0}}},
       {"slc tile, most light by compensation rays",
        "slc",
-       {{"gather", "tile"}, {"vpl/bound", 0.3}, {"compensation/pilot_passes", 2.0}, {"vpl/light_paths", 300.0}}},
+       {{"gather", "tile"}, {"vpl/bound", 0.03}, {"compensation/pilot_passes", 2.0}, {"vpl/light_paths", 300.0}}},
       {"slc tile, direct light through VPLs",
        "slc",
        {{"gather", "tile"}, {"vpl/direct", true}, {"vpl/light_paths", 300.0}}},
@@ -144,23 +144,40 @@ TEST(PathLog, HoldsWhatTheFilmOfThatPassRecords) {
 
 TEST(PathLog, ConnectionsAreTheProductOfTheirFactors) {
   const Scene scene = glossy_box({9, 7});
+  int behind_rays = 0;
   for (const Method& method : logged_methods()) {
     int connections = 0, next_events = 0, rays = 0;
-    for (const auto& [pixel, pass] : {std::pair(Pixel{4, 3}, 1u), {Pixel{4, 3}, 5u}, {Pixel{2, 6}, 5u}}) {
+    for (const auto& [pixel, pass] : {std::pair(Pixel{4, 3}, 1u),
+                                      {Pixel{4, 3}, 5u},
+                                      {Pixel{2, 6}, 5u},
+                                      {Pixel{3, 5}, 1u},
+                                      {Pixel{6, 5}, 1u},
+                                      {Pixel{5, 4}, 1u}}) {
       PathLog log;
       render(method, scene, {.parts = true}, pass, pass + 1, {pixel, pass, &log});
-      Rgb throughput(1);
+      Rgb of_pixel(1), throughput(1);
       float groups = 1;
+      bool behind = false;  // a compensation ray, whose light is multiplied by `scale`
+      float scale = 1;
       for (const auto& [what, value, part] : log.entries()) {
         if (const auto* group = std::get_if<happening::Group>(&what)) groups = static_cast<float>(group->groups);
-        if (const auto* gather = std::get_if<happening::Gather>(&what)) throughput = gather->throughput;
+        if (const auto* ray = std::get_if<happening::CompensationRay>(&what)) behind = true, scale = ray->scale;
+        if (const auto* gather = std::get_if<happening::Gather>(&what)) {
+          throughput = gather->throughput * scale;
+          if (!behind) of_pixel = throughput;
+        }
+        if (std::holds_alternative<happening::CompensationEnd>(what)) {
+          behind = false, scale = 1;
+          throughput = of_pixel;
+        }
         next_events += std::holds_alternative<happening::NextEvent>(what);
         rays += std::holds_alternative<happening::CompensationRay>(what);
         const auto* c = std::get_if<happening::VplConnection>(&what);
         if (!c) continue;
         ++connections;
-        EXPECT_EQ(part, Part::vpl);
-        EXPECT_GT(c->weight, 0);
+        EXPECT_EQ(part, behind ? Part::compensation : c->vertex == 0 ? Part::direct : Part::vpl);
+        behind_rays += behind;
+        EXPECT_TRUE(c->weight > 0 || (behind && c->weight == 0));  // bounding may have left nothing over
         EXPECT_GT(c->bounded_weight, 0);
         EXPECT_LE(c->bounded_weight, 1);
         EXPECT_LE(c->edges, 5);
@@ -171,8 +188,11 @@ TEST(PathLog, ConnectionsAreTheProductOfTheirFactors) {
     }
     EXPECT_EQ(connections > 0, method.integrator != "spt") << method.label;
     EXPECT_EQ(rays > 0, method.integrator != "spt") << method.label;
-    EXPECT_GT(next_events, 0) << method.label;
+    if (!method.parameters.contains("vpl/direct")) {
+      EXPECT_GT(next_events, 0) << method.label;
+    }
   }
+  EXPECT_GT(behind_rays, 0);
 }
 
 TEST(PathLog, ScalesWhatItAppends) {
