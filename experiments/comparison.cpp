@@ -4,6 +4,7 @@
 
 #include "experiments/build_info.h"
 #include "experiments/turns.h"
+#include "experiments/vpl_light.h"
 
 namespace gradslc {
 namespace {
@@ -16,6 +17,12 @@ void add_errors(ResultRow& row, const PointImage& point, const Film& film, const
   row.reference_noise = reference.noise;
   if (point.point.reconstruction) {
     row.primal_relmse = metric_value(compare_images(film.primal(), reference.images), "relmse");
+  }
+  // Parts are the primal's: what reconstruction does to them is not known.
+  if (reference.vpl_light && film.layers().parts && !point.point.reconstruction) {
+    const std::vector<Metric> errors = compare_images(vpl_light(film), *reference.vpl_light);
+    row.vpl_light_relmse = metric_value(errors, "relmse");
+    row.vpl_light_relmse_trimmed = metric_value(errors, "relmse_trimmed");
   }
   if (!reference.noise)
     row.flags.push_back("imported_reference");

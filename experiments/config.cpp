@@ -65,6 +65,7 @@ Experiment ConfigReader::read() {
   read_methods(reader);
   read_budget(reader);
   read_reference(reader);
+  experiment_.reference.parts = experiment_.parts;
   reader.report_unknown_keys();
   return std::move(experiment_);
 }

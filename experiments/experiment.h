@@ -43,6 +43,7 @@ struct ReferencePlan {
   /// What renders it, where that is not `spt` with its defaults: an unbiased method, without reconstruction.
   std::optional<MethodPlan> method;
   nlohmann::json resolved_method;  ///< with all its parameters; null without a method
+  bool parts = false;              ///< of the light that VPLs can represent too
 };
 
 /// A config, resolved and validated: everything that a run depends on.

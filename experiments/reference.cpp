@@ -11,6 +11,7 @@
 #include "experiments/build_info.h"
 #include "experiments/render.h"
 #include "experiments/sha256.h"
+#include "experiments/vpl_light.h"
 #include "scene/scene.h"
 
 namespace gradslc {
@@ -29,8 +30,8 @@ MethodPlan method_of(const ReferencePlan& plan) {
   return method;
 }
 
-RgbImage render_half(int half, int passes, const MethodPlan& method, const Scene& scene, RenderSettings settings,
-                     const Makers& makers, const std::function<void(double)>& progress) {
+Film render_half(int half, int passes, bool parts, const MethodPlan& method, const Scene& scene,
+                 RenderSettings settings, const Makers& makers, const std::function<void(double)>& progress) {
   settings.seed = hash_combine(k_reference_seed, static_cast<std::uint64_t>(half));
   const std::unique_ptr<Integrator> integrator = makers.integrator(method);
   integrator->prepare(scene, settings);
@@ -39,7 +40,7 @@ RgbImage render_half(int half, int passes, const MethodPlan& method, const Scene
     throw_input_error("", fmt::format("the reference's method \"{}\" does not converge to the right image with these "
                                       "parameters; choose an unbiased one",
                                       method.integrator));
-  Film film(scene.camera().resolution(), {.gradients = traits.gradients});
+  Film film(scene.camera().resolution(), {.gradients = traits.gradients, .parts = parts});
   for (int pass = 0; pass < passes; ++pass) {
     integrator->render_pass(static_cast<std::uint32_t>(pass), film);
     progress((half + static_cast<double>(pass + 1) / passes) / 2);
@@ -47,15 +48,20 @@ RgbImage render_half(int half, int passes, const MethodPlan& method, const Scene
   if (const std::uint64_t invalid = film.invalid_samples()) {
     throw_failure("", fmt::format("the reference has {} samples that are not finite; it cannot be trusted", invalid));
   }
-  return film.primal();
+  return film;
 }
 
 std::filesystem::path with_extension(const std::filesystem::path& path, const char* extension) {
   return std::filesystem::path(path).replace_extension(extension);
 }
 
-void write_reference(const std::filesystem::path& file, const ReferenceImages& images, const nlohmann::json& about) {
-  write_exr(file, {images.mean(), {{"a", images.a}, {"b", images.b}}, {}});
+void write_reference(const std::filesystem::path& file, const Reference& reference, const nlohmann::json& about) {
+  ExrImage content{reference.images.mean(), {{"a", reference.images.a}, {"b", reference.images.b}}, {}};
+  if (reference.vpl_light) {
+    content.layers["vpl_light_a"] = reference.vpl_light->a;
+    content.layers["vpl_light_b"] = reference.vpl_light->b;
+  }
+  write_exr(file, content);
   nlohmann::json full = about;
   full["sha256"] = sha256_of_file(file);
   write_file_atomically(with_extension(file, ".json"), full.dump(2) + "\n");
@@ -70,7 +76,7 @@ const RgbImage& half_layer(const ExrImage& content, const char* name, const std:
 }
 
 /// Reads a kept reference and the JSON beside it, and checks the file against its checksum.
-Reference read_reference(const std::filesystem::path& file) {
+Reference read_reference(const std::filesystem::path& file, bool parts) {
   Reference reference;
   const nlohmann::json about = nlohmann::json::parse(read_file(with_extension(file, ".json")), nullptr, false);
   if (!about.is_object() || about.value("sha256", "") != sha256_of_file(file)) {
@@ -78,6 +84,7 @@ Reference read_reference(const std::filesystem::path& file) {
   }
   const ExrImage content = read_exr(file);
   reference.images = {half_layer(content, "a", file), half_layer(content, "b", file)};
+  if (parts) reference.vpl_light = {half_layer(content, "vpl_light_a", file), half_layer(content, "vpl_light_b", file)};
   reference.about = about;
   return reference;
 }
@@ -91,16 +98,18 @@ Reference rendered_reference(const ReferencePlan& plan, const Scene& scene, cons
   Reference reference;
   // The JSON is written last: without it the image may not be whole.
   if (std::filesystem::exists(with_extension(file, ".json"))) {
-    reference = read_reference(file);
+    reference = read_reference(file, plan.parts);
     log(fmt::format("reference: {} spp, kept in {}", spp, file.string()));
     if (reference.about.value("build", nlohmann::json()) != build_info())
       log("reference: was rendered by another build of this program");
   } else {
     const int passes = passes_per_half(spp);
     const Seconds begin = makers.clock();
+    if (plan.parts) reference.vpl_light.emplace();
     for (const int half : {0, 1}) {
-      (half == 0 ? reference.images.a : reference.images.b) =
-          render_half(half, passes, method_of(plan), scene, settings, makers, progress);
+      const Film film = render_half(half, passes, plan.parts, method_of(plan), scene, settings, makers, progress);
+      (half == 0 ? reference.images.a : reference.images.b) = film.primal();
+      if (plan.parts) (half == 0 ? reference.vpl_light->a : reference.vpl_light->b) = vpl_light(film);
     }
     const Seconds time = makers.clock() - begin;
     reference.about = {{"key", key},
@@ -108,7 +117,7 @@ Reference rendered_reference(const ReferencePlan& plan, const Scene& scene, cons
                        {"cpu_seconds", time.cpu},
                        {"build", build_info()},
                        {"machine", machine_info()}};
-    write_reference(file, reference.images, reference.about);
+    write_reference(file, reference, reference.about);
     log(fmt::format("reference: {} spp rendered in {:.1f} s", 2 * passes, time.wall));
   }
   reference.spp = 2 * passes_per_half(spp);
@@ -162,6 +171,7 @@ nlohmann::json reference_key(const ReferencePlan& plan, const std::string& scene
                         {"spp", 2 * passes_per_half(plan.spp)},
                         {"seed", k_reference_seed}};
   if (plan.method) key["method"] = plan.resolved_method;
+  if (plan.parts) key["parts"] = true;
   return key;
 }
 

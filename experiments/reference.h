@@ -11,7 +11,8 @@ namespace gradslc {
 /// What methods are measured against, and how well it is known.
 struct Reference {
   ReferenceImages images;
-  std::optional<double> noise;  ///< relmse of the reference itself; unknown for an imported image
+  std::optional<ReferenceImages> vpl_light;  ///< vpl_light() of both halves, where the experiment has parts
+  std::optional<double> noise;               ///< relmse of the reference itself; unknown for an imported image
   std::filesystem::path file;
   int spp = 0;           ///< of both halves together; 0: imported
   nlohmann::json about;  ///< for manifests

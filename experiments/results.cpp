@@ -64,6 +64,7 @@ struct Column {
   std::string name;
   std::function<std::string(const ResultRow&)> print;
   std::function<bool(ResultRow&, const std::string&)> parse;
+  bool may_be_missing = false;  // in files of earlier versions
 };
 
 template <class Member>
@@ -101,6 +102,11 @@ std::vector<Column> columns() {
   all.push_back(column("final", &ResultRow::final));
   all.push_back(column("budget_miss", &ResultRow::budget_miss));
   all.push_back(column("primal_relmse", &ResultRow::primal_relmse));
+  for (auto [name, member] : {std::pair("vpl_light_relmse", &ResultRow::vpl_light_relmse),
+                              {"vpl_light_relmse_trimmed", &ResultRow::vpl_light_relmse_trimmed}}) {
+    all.push_back(column(name, member));
+    all.back().may_be_missing = true;
+  }
   all.push_back(column("reference_noise", &ResultRow::reference_noise));
   all.push_back(column("flags", &ResultRow::flags));
   return all;
@@ -141,7 +147,10 @@ std::vector<ResultRow> read_results(const std::filesystem::path& file) {
   std::vector<std::pair<std::size_t, Column>> found;
   for (Column& column : columns()) {
     const auto position = std::find(header.begin(), header.end(), column.name);
-    if (position == header.end()) throw_input_error(file.string(), fmt::format("has no column \"{}\"", column.name));
+    if (position == header.end()) {
+      if (column.may_be_missing) continue;
+      throw_input_error(file.string(), fmt::format("has no column \"{}\"", column.name));
+    }
     found.emplace_back(static_cast<std::size_t>(position - header.begin()), std::move(column));
   }
   std::vector<ResultRow> rows;

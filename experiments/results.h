@@ -21,11 +21,13 @@ struct ResultRow {
   double cpu_seconds = 0;   ///< of the same
   double prepare_seconds = 0, render_seconds = 0, reconstruct_seconds = 0;  ///< wall
   std::uint64_t rays = 0;
-  std::vector<Metric> metrics;            ///< all of metric_registry(), or none without a reference
-  double target = 0;                      ///< passes or seconds that the curve point was planned for
-  bool final = false;                     ///< the whole budget
-  std::optional<double> budget_miss;      ///< wall_seconds / budget - 1; final points of budgets in seconds
-  std::optional<double> primal_relmse;    ///< of the image without its reconstruction, where it has one
+  std::vector<Metric> metrics;          ///< all of metric_registry(), or none without a reference
+  double target = 0;                    ///< passes or seconds that the curve point was planned for
+  bool final = false;                   ///< the whole budget
+  std::optional<double> budget_miss;    ///< wall_seconds / budget - 1; final points of budgets in seconds
+  std::optional<double> primal_relmse;  ///< of the image without its reconstruction, where it has one
+  /// Of the light that VPLs can represent alone; without reconstruction, where the experiment has parts.
+  std::optional<double> vpl_light_relmse, vpl_light_relmse_trimmed;
   std::optional<double> reference_noise;  ///< relmse of the reference itself
   std::vector<std::string> flags;         ///< names of k_flags
 

@@ -60,10 +60,21 @@ std::optional<MethodSummary::Errors> summarise_errors(const std::vector<const Re
   const auto inefficiency = [&](const char* name) {
     return estimate_over(rows, [&](const ResultRow& row) { return *row.metric(name) * row.wall_seconds; });
   };
-  MethodSummary::Errors errors{metric("relmse"),       metric("relmse_trimmed"),       metric("mean_bias"),
-                               inefficiency("relmse"), inefficiency("relmse_trimmed"), std::nullopt};
+  MethodSummary::Errors errors{metric("relmse"),
+                               metric("relmse_trimmed"),
+                               metric("mean_bias"),
+                               inefficiency("relmse"),
+                               inefficiency("relmse_trimmed"),
+                               std::nullopt,
+                               std::nullopt,
+                               std::nullopt};
   if (has([](const ResultRow& row) { return row.primal_relmse; })) {
     errors.primal_relmse = estimate_over(rows, [](const ResultRow& row) { return *row.primal_relmse; });
+  }
+  if (has([](const ResultRow& row) { return row.vpl_light_relmse_trimmed; })) {
+    errors.vpl_light_trimmed = estimate_over(rows, [](const ResultRow& row) { return *row.vpl_light_relmse_trimmed; });
+    errors.vpl_light_inefficiency =
+        estimate_over(rows, [](const ResultRow& row) { return *row.vpl_light_relmse_trimmed * row.wall_seconds; });
   }
   return errors;
 }

@@ -21,6 +21,8 @@ struct MethodSummary {
     Estimate relmse, relmse_trimmed, mean_bias;
     Estimate inefficiency, inefficiency_trimmed;  ///< (trimmed) relmse x wall seconds, per repeat
     std::optional<Estimate> primal_relmse;        ///< of the image without its reconstruction
+    /// Trimmed relmse of the light that VPLs can represent alone, and the same x wall seconds.
+    std::optional<Estimate> vpl_light_trimmed, vpl_light_inefficiency;
   };
   std::optional<Errors> errors;
   std::vector<std::string> flags;  ///< of any repeat

@@ -72,6 +72,19 @@ std::vector<std::pair<std::string, Cell>> table_columns(const SceneSummary& summ
     columns.emplace_back("factor", factor_column(summary, &Errors::inefficiency, markup));
     columns.emplace_back("factor trimmed", factor_column(summary, &Errors::inefficiency_trimmed, markup));
   }
+  if (any([](const MethodSummary& m) { return m.errors && m.errors->vpl_light_trimmed; })) {
+    columns.emplace_back("VPL light: relmse trimmed", [=](const MethodSummary& m) {
+      return m.errors && m.errors->vpl_light_trimmed ? format_estimate(*m.errors->vpl_light_trimmed, markup)
+                                                     : std::string("-");
+    });
+    columns.emplace_back("factor trimmed", [&summary, markup](const MethodSummary& m) {
+      const MethodSummary& first = summary.methods.front();
+      if (!m.errors || !m.errors->vpl_light_inefficiency || !first.errors || !first.errors->vpl_light_inefficiency)
+        return std::string("-");
+      const Estimate base = *first.errors->vpl_light_inefficiency, value = *m.errors->vpl_light_inefficiency;
+      return factor_cell(improvement(base, value), &m == &first, base.count > 1 && value.count > 1, markup);
+    });
+  }
   columns.emplace_back("flags",
                        [=](const MethodSummary& m) { return text(fmt::format("{}", fmt::join(m.flags, ", "))); });
   return columns;

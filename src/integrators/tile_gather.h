@@ -10,7 +10,7 @@ namespace gradslc {
 
 /// The two-level gathering of DESIGN 5.
 struct TileParameters {
-  int size = 16, candidates = 512, samples = 8;
+  int size = 16, candidates = 512, samples = 10;
   float defensive = 0.1f, cosine_floor = 0.2f;
 };
 

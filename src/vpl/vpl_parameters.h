@@ -23,7 +23,7 @@ struct VplParameters {
   float connectable_roughness = 0.1f;
   Bounding bounding = Bounding::compensate;
   double bound = 0;
-  double kappa = 4;
+  double kappa = 20;
 
   LobeSelection lobes() const { return {true, true, connectable_roughness}; }
   /// max_bounces with its default resolved.

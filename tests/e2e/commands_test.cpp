@@ -8,6 +8,7 @@
 
 #include "core/exr.h"
 #include "e2e/program.h"
+#include "experiments/results.h"
 
 namespace gradslc {
 namespace {
@@ -232,6 +233,30 @@ TEST_F(Commands, RunWritesResultsAndReportRepeatsTheTables) {
   std::filesystem::remove(results / "report.md");
   EXPECT_EQ(run({"report", "results/tiny"}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(results / "report.md"));
+}
+
+TEST_F(Commands, PartsMeasureTheLightThatVplsCanRepresentAlone) {
+  // In a diffuse scene all indirect light is of that kind, so its errors are the image's.
+  folder_.write("parts.json", R"({ "scenes": [{"file": "scene.xml"}], "components": ["indirect"], "parts": true,
+    "methods": ["spt", {"name": "Tile", "integrator": "slc", "gather": "tile", "vpl": {"light_paths": 50}},
+                {"name": "Grad", "integrator": "gradslc", "vpl": {"light_paths": 50}, "reconstruction": "l2"}],
+    "budget": {"spp": 4}, "reference": {"spp": 64, "method": {"integrator": "slc", "gather": "tile"}} })");
+  const std::filesystem::path results = folder_.path() / "results" / "parts";
+  for (const char* reference : {"rendered", "kept"}) {
+    const Outcome outcome = run({"run", "parts.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << reference << outcome.errors;
+    int measured = 0;
+    for (const ResultRow& row : read_results(results / "results.csv")) {
+      ASSERT_EQ(row.vpl_light_relmse.has_value(), row.method != "Grad") << row.method;
+      if (!row.vpl_light_relmse) continue;
+      ++measured;
+      EXPECT_NEAR(*row.vpl_light_relmse, *row.metric("relmse"), 1e-4 * *row.metric("relmse"));
+      EXPECT_NEAR(*row.vpl_light_relmse_trimmed, *row.metric("relmse_trimmed"), 1e-4 * *row.metric("relmse_trimmed"));
+    }
+    EXPECT_EQ(measured, 2 * 3) << "curve points";
+    EXPECT_NE(content_of(results / "report.md").find("VPL light"), std::string::npos);
+    std::filesystem::remove(results / "results.csv");
+  }
 }
 
 TEST_F(Commands, DryRunPrintsThePlanAndRendersNothing) {

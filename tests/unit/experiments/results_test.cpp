@@ -28,6 +28,8 @@ ResultRow sample_row() {
   row.target = 20;
   row.final = true;
   row.budget_miss = -0.01;
+  row.vpl_light_relmse = 0.75;
+  row.vpl_light_relmse_trimmed = 0.1;
   row.reference_noise = 1e-5;
   row.flags = {"biased", "one_set"};
   return row;
@@ -42,6 +44,8 @@ void expect_equal(const ResultRow& a, const ResultRow& b) {
   EXPECT_EQ(a.flags, b.flags);
   EXPECT_EQ(a.metric("relmse"), b.metric("relmse"));
   EXPECT_EQ(a.primal_relmse, b.primal_relmse);
+  EXPECT_EQ(a.vpl_light_relmse, b.vpl_light_relmse);
+  EXPECT_EQ(a.vpl_light_relmse_trimmed, b.vpl_light_relmse_trimmed);
 }
 
 TEST(Results, CsvBeginsWithTheFixedColumns) {
