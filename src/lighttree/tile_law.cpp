@@ -1,7 +1,7 @@
 #include "lighttree/tile_law.h"
 
 #include <algorithm>
-#include <numbers>
+#include <vector>
 
 #include "lighttree/cluster_kernel.h"
 
@@ -88,16 +88,36 @@ TileLaw::TileLaw(std::span<const Receiver> receivers, const TileLawSettings& set
   radius_ = 0.5f * length(box.diagonal());
   normals_ = transmits ? Cone{{0, 0, 1}, -1} : normals.result();
 
-  // In raster order, steps of the golden ratio make a Fibonacci lattice over the tile.
-  representative_count_ = std::min(receivers.size(), representatives_.size());
+  choose_representatives(receivers);
+}
+
+void TileLaw::choose_representatives(std::span<const Receiver> receivers) {
+  const float per_radius2 = radius_ > 0 ? 1 / (radius_ * radius_) : 0;
+  const auto dissimilarity = [&](const Receiver& a, const Receiver& b) {
+    return distance_squared(a.position, b.position) * per_radius2 + length_squared(as_vec(a.normal) - as_vec(b.normal));
+  };
+  std::vector<float> nearest(receivers.size(), k_infinity);
+  std::vector<std::size_t> represented_by(receivers.size(), 0);
+  std::array<std::size_t, k_most_representatives> chosen{};
+  std::size_t next = receivers.size() / 2;
+  while (representative_count_ < representatives_.size()) {
+    chosen[representative_count_] = next;
+    std::size_t farthest = 0;
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      const float d = dissimilarity(receivers[i], receivers[chosen[representative_count_]]);
+      if (d < nearest[i]) nearest[i] = d, represented_by[i] = representative_count_;
+      if (nearest[i] > nearest[farthest]) farthest = i;
+    }
+    ++representative_count_;
+    if (!(nearest[farthest] > 0)) break;
+    next = farthest;
+  }
+  std::array<float, k_most_representatives> share{};
+  for (const std::size_t r : represented_by) share[r] += 1 / static_cast<float>(receivers.size());
   for (std::size_t i = 0; i < representative_count_; ++i) {
-    const double turn = static_cast<double>(i) / std::numbers::phi;
-    const std::size_t index =
-        representative_count_ == receivers.size()
-            ? i
-            : static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(receivers.size()));
-    const float albedo = albedo_of(receivers[index].bound);
-    representatives_[i] = {receivers[index], albedo > 0 ? 1 / (albedo * static_cast<float>(representative_count_)) : 0};
+    const Receiver& receiver = receivers[chosen[i]];
+    const float albedo = albedo_of(receiver.bound);
+    representatives_[i] = {receiver, albedo > 0 ? share[i] / albedo : 0};
   }
 }
 

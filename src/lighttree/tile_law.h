@@ -16,12 +16,11 @@ struct TileLawSettings {
 
 /// How important VPLs are to all receivers of a tile (DESIGN 5): the mean of the importance to some of them, which
 /// represent the others, plus `defensive` times an importance that is 0 only where nothing lights any receiver, and as
-/// much of one that is 0 only where nothing lights any point within `reach` of receivers. A
-/// node's weight is an estimate and no bound; what counts is that it is positive wherever a VPL below lights a
-/// receiver.
+/// much of one that is 0 only where nothing lights any point within `reach` of receivers. A node's weight is an
+/// estimate and no bound; what counts is that it is positive wherever a VPL below lights a receiver.
 class TileLaw {
  public:
-  /// `receivers`: at least one. Representatives are spread evenly over their order.
+  /// `receivers`: at least one.
   TileLaw(std::span<const Receiver> receivers, const TileLawSettings& settings);
 
   /// Weights of a node's children.
@@ -30,9 +29,14 @@ class TileLaw {
  private:
   struct Representative {
     Receiver receiver;
-    float scale;  ///< makes receivers of all albedos alike
+    float scale;  ///< share of the receivers; makes those of all albedos alike
   };
-  std::array<Representative, 16> representatives_;
+  static constexpr std::size_t k_most_representatives = 16;
+  /// One by one, each the receiver least like those before, by position and normal (farthest-point traversal, Gonzalez
+  /// 1985); each stands for the receivers that it is most like.
+  void choose_representatives(std::span<const Receiver> receivers);
+
+  std::array<Representative, k_most_representatives> representatives_;
   std::size_t representative_count_ = 0;
   // All receivers: a sphere around them, and a cone of their normals.
   Point3 centre_;
