@@ -7,11 +7,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "scene/loaders/loader.h"
+#include "support/render/all_scenes.h"
 #include "support/render/method.h"
 #include "vpl/vpl_parameters.h"
 
@@ -21,21 +21,15 @@ namespace {
 constexpr double k_false_alarm = 0.001;  // of one scene
 constexpr int k_max_depth = 6;
 
-struct EnergyScene {
-  std::string name, file;
-  double connectable_roughness = VplParameters().connectable_roughness;
-  bool is_real() const { return file.starts_with("scene_"); }  ///< one of the report's
-  std::string label() const { return (is_real() ? "real " : "") + name; }
-  std::filesystem::path path() const {
-    const std::filesystem::path root = is_real() ? GRADSLC_SHARED_DIR "/scenes" : GRADSLC_SOURCE_DIR "/scenes";
-    return root / name / file;
-  }
-};
+/// At the default, VPLs' light from rough metal on our lamp comes in so few samples that the scatter of 24 runs does
+/// not show it: `slc` has 0.83 +- 0.04 of spt's indirect light on diffuse surfaces, and 1.03 +- 0.03 in twelve times as
+/// many passes.
+double connectable_roughness(const SceneFile& scene) {
+  return scene.label() == "lamp" ? 0.35 : VplParameters().connectable_roughness;
+}
 
-void PrintTo(const EnergyScene& scene, std::ostream* stream) { *stream << scene.label(); }
-
-/// Lobes sharper than `connectable_roughness` are followed by paths.
-std::vector<Method> methods(double connectable_roughness) {
+/// Lobes sharper than the threshold are followed by paths.
+std::vector<Method> methods(double threshold) {
   std::vector<Method> made = {
       {"vpl", "vpl", {{"vpl/light_paths", 300.0}, {"selection", "power"}, {"samples", 20.0}}},
       {"slc", "slc", {{"vpl/light_paths", 1000.0}}},
@@ -43,7 +37,7 @@ std::vector<Method> methods(double connectable_roughness) {
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "reconnection"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
   };
-  for (Method& method : made) method.parameters["vpl/connectable_roughness"] = connectable_roughness;
+  for (Method& method : made) method.parameters["vpl/connectable_roughness"] = threshold;
   return made;
 }
 
@@ -79,30 +73,17 @@ MaterialClasses classify(const Scene& scene) {
 constexpr Quantity k_compared[] = {Quantity::image, Quantity::direct, Quantity::vpl_and_compensation,
                                    Quantity::specular, Quantity::prefix};
 
-class Energy : public testing::TestWithParam<EnergyScene> {};
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, Energy,
-    testing::Values(EnergyScene{"cornell-box", "scene.xml"}, EnergyScene{"staircase", "scene.xml"},
-                    EnergyScene{"bathroom", "scene.xml"}, EnergyScene{"veranda", "scene.xml"},
-                    // At the default, VPLs' light from rough metal comes in so few samples that the scatter of 24 runs
-                    // does not show it: `slc` has 0.83 +- 0.04 of spt's indirect light on diffuse surfaces, and
-                    // 1.03 +- 0.03 in twelve times as many passes.
-                    EnergyScene{"lamp", "scene.xml", 0.35}, EnergyScene{"cornell-box", "scene_v0.6.xml"},
-                    EnergyScene{"staircase", "scene_v0.6.xml"}, EnergyScene{"bathroom", "scene_v0.6.xml"},
-                    EnergyScene{"house", "scene_v0.6.xml"}, EnergyScene{"lamp", "scene_v0.6.xml"}),
-    [](const auto& entry) {
-      std::string name = (entry.param.file.starts_with("scene_") ? "real_" : "our_") + entry.param.name;
-      std::erase(name, '-');
-      return name;
-    });
+class Energy : public testing::TestWithParam<SceneFile> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn(all_scenes()),
+                         [](const auto& entry) { return entry.param.identifier(); });
 
 /// Compares every method with spt: each part of the image per material, and the image per block of 16 x 16 pixels.
-void expect_energy(const EnergyScene& of, const Scene& scene, const std::string& light, const Components& components) {
+void expect_energy(const SceneFile& of, const Scene& scene, const std::string& light, const Components& components) {
   const MaterialClasses classes = classify(scene);
   const Regions partitions[] = {classes.regions, block_regions(scene.camera().resolution(), 16)};
   const RenderSettings settings{.max_depth = k_max_depth, .components = components};
-  const Method path_tracing{"spt", "spt", {{"connectable_roughness", of.connectable_roughness}}};
-  const std::vector<Method> tested = methods(of.connectable_roughness);
+  const Method path_tracing{"spt", "spt", {{"connectable_roughness", connectable_roughness(of)}}};
+  const std::vector<Method> tested = methods(connectable_roughness(of));
   const auto reference =
       region_moments(path_tracing, scene, settings, partitions, {.runs = 24, .passes = 32, .seed = 21});
   const std::size_t tests = tested.size() * (std::size(k_compared) * partitions[0].count + partitions[1].count) * 2;
