@@ -48,7 +48,7 @@ VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, Vert
             ? candidates_.contribution(receiver, draw.candidate)
             : candidates_.weight(draw.candidate) * unshadowed_contribution(point, vpls_, vpl, bound_);
     if (is_black(contribution)) continue;
-    const Ray segment = connection_segment(point, vpl);
+    const Ray segment = connection_segment(point, vpl, candidates_.geometric_normal(draw.candidate));
     const Rgb transmittance = connect(context, segment, connection_edges(x, vpl), max_edges).transmittance;
     auto drawn = static_cast<float>(draw.count / (samples * draw.probability));
     if (left_over) {

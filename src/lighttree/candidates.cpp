@@ -166,6 +166,12 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
   }
 }
 
+Normal3 CandidateSet::geometric_normal(std::uint32_t candidate) const {
+  const auto [group, lane] = place_of(candidate);
+  const auto& normal = groups_[group].geometric;
+  return {normal[0][lane], normal[1][lane], normal[2][lane]};
+}
+
 Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const {
   const auto [group, lane] = place_of(candidate);
   const auto& flux = groups_[group].flux;

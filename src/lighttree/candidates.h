@@ -44,6 +44,7 @@ class CandidateSet {
   void choose(int samples, double u, std::vector<CandidateDraw>& draws) const;
 
   std::uint32_t vpl(std::uint32_t candidate) const { return vpls_[candidate]; }
+  Normal3 geometric_normal(std::uint32_t candidate) const;
   /// Count over expected count: what a contribution of this candidate is multiplied by.
   float weight(std::uint32_t candidate) const { return weights_[candidate]; }
   /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() has found it.

@@ -39,10 +39,10 @@ Rgb unshadowed_contribution(const GatherPoint& point, const VplView& vpls, const
   return f_x * reflected * (k_inv_pi * geometry * bounded_weight(strength, bound));
 }
 
-Ray connection_segment(const GatherPoint& point, const Vpl& y) {
+Ray connection_segment(const GatherPoint& point, const Vpl& y, Normal3 normal) {
   const Vec3 d = y.position - point.x.point.position;
   const Point3 from = offset_position(point.x.point, d);
-  const Point3 to = offset_position(y.position, as_normal(y.geometric_normal.decode()), y.error(), -d);
+  const Point3 to = offset_position(y.position, normal, y.error(), -d);
   return segment(from, to);
 }
 

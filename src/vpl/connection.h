@@ -27,7 +27,11 @@ struct VplView {
 /// and 0 where either lobe does not reach, or at distance 0.
 Rgb unshadowed_contribution(const GatherPoint& point, const VplView& vpls, const Vpl& y, float bound);
 
-/// The shadow ray of that connection: the segment from x to y, both ends off their surfaces.
-Ray connection_segment(const GatherPoint& point, const Vpl& y);
+/// The shadow ray of that connection: the segment from x to y, both ends off their surfaces. `normal`: y's geometric
+/// one, for callers that have decoded it before.
+Ray connection_segment(const GatherPoint& point, const Vpl& y, Normal3 normal);
+inline Ray connection_segment(const GatherPoint& point, const Vpl& y) {
+  return connection_segment(point, y, as_normal(y.geometric_normal.decode()));
+}
 
 }  // namespace gradslc
