@@ -37,7 +37,7 @@ void CandidateSet::assign(const VplSet& set, std::span<const Candidate> candidat
 
 void CandidateSet::put(const VplSet& set, std::size_t index) {
   const Vpl& vpl = set.vpls[vpls_[index]];
-  const auto [group_index, lane] = place_of(index);
+  const auto [group_index, lane] = place_of(static_cast<std::uint32_t>(index));
   const auto put_vec = [&](FloatV(&v)[3], Vec3 value) {
     v[0][lane] = value.x, v[1][lane] = value.y, v[2][lane] = value.z;
   };
@@ -131,8 +131,8 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
   }
 }
 
-float CandidateSet::target(std::uint32_t candidate) const {
-  const auto [group, lane] = place_of(candidate);
+float CandidateSet::target(Place place) const {
+  const auto [group, lane] = place;
   return summed_[group][lane] - (group > 0 ? summed_[group - 1][lane] : 0);
 }
 
@@ -144,20 +144,20 @@ void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& dra
   for (std::size_t lane = 0; lane < k_lanes; ++lane)
     end_of_lane[lane] = total += static_cast<double>(summed_.back()[lane]);
   if (!(total > 0)) return;
-  std::size_t lane = 0;
+  std::uint32_t lane = 0;
   for (int s = 0; s < samples; ++s) {
     const double position = (s + u) / samples * total;
     while (lane + 1 < k_lanes && position >= end_of_lane[lane]) ++lane;
     const auto within = static_cast<float>(position - (lane > 0 ? end_of_lane[lane - 1] : 0));
     // The first group whose sum exceeds the position within the lane, by halving without branches.
-    std::size_t group = 0;
-    for (std::size_t left = summed_.size() - 1; left > 0;) {
-      const std::size_t half = (left + 1) / 2;
+    std::uint32_t group = 0;
+    for (std::uint32_t left = static_cast<std::uint32_t>(summed_.size()) - 1; left > 0;) {
+      const std::uint32_t half = (left + 1) / 2;
       group += summed_[group + half - 1][lane] > within ? 0 : half;
       left -= half;
     }
-    const auto candidate = static_cast<std::uint32_t>(lane * summed_.size() + group);
-    const double probability = static_cast<double>(target(candidate)) / total;
+    const std::uint32_t candidate = lane * static_cast<std::uint32_t>(summed_.size()) + group;
+    const double probability = static_cast<double>(target(Place{group, lane})) / total;
     if (!(probability > 0)) continue;  // rounding at a lane's end
     if (!draws.empty() && draws.back().candidate == candidate)
       ++draws.back().count;

@@ -50,7 +50,7 @@ class CandidateSet {
   /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() has found it.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const;
   /// As evaluate() has found it, in the unit of the largest channel of pi^2 contribution().
-  float target(std::uint32_t candidate) const;
+  float target(std::uint32_t candidate) const { return target(place_of(candidate)); }
 
  private:
   static constexpr std::size_t k_lanes = FloatV::size();
@@ -68,9 +68,13 @@ class CandidateSet {
   };
   /// Candidates fill one lane after the other, so that choose() goes through them in the tree's order.
   struct Place {
-    std::size_t group, lane;
+    std::uint32_t group, lane;
   };
-  Place place_of(std::size_t candidate) const { return {candidate % groups_.size(), candidate / groups_.size()}; }
+  Place place_of(std::uint32_t candidate) const {
+    const auto groups = static_cast<std::uint32_t>(groups_.size());
+    return {candidate % groups, candidate / groups};
+  }
+  float target(Place place) const;
   void put(const VplSet& set, std::size_t index);
   void evaluate_lambert(const CandidateReceiver& receiver, float bound);
   void evaluate_any(const CandidateReceiver& receiver, float bound);
