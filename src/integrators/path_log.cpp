@@ -18,6 +18,7 @@ void PathLog::start(std::uint32_t pass, bool keeps_entries) {
   keeps_entries_ = keeps_entries;
   gather_throughput_ = Rgb(1), scale_ = 1;
   entries_.clear();
+  vertex_throughput_.reset();
 }
 
 void PathLog::note(const Happening& what) { add_entry(what, Rgb(), std::nullopt); }

@@ -34,7 +34,7 @@ struct Gather {
   Rgb throughput;
 };
 /// A ray through f_c(x) begins, the `index`-th from 0; what it brings is multiplied by `scale`, one over the mean
-/// number of such rays. What follows up to the next one or the next GatherEnd is on its path.
+/// number of such rays. What follows up to the next one or to CompensationEnd is on its path.
 struct CompensationRay {
   std::uint32_t index;
   float scale;

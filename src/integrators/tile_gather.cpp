@@ -7,9 +7,11 @@ namespace gradslc {
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
   tile_nodes_ = 0;
+  gathers_ = 0;
   if (!receivers.empty()) {
     const TileLaw law(receivers, {.defensive = parameters_.defensive,
                                   .cosine_floor = parameters_.cosine_floor,
+                                  .power_share = parameters_.power_share,
                                   .bound = bound_,
                                   .reach = reach_});
     tile_nodes_ = draw_candidates(tree_, law, parameters_.candidates, u, drawn_);
@@ -20,6 +22,7 @@ void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
 }
 
 VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
+  if (parameters_.learn_visibility && gathers_++ % k_gathers_between_lessons == 0) candidates_.learn_visibility();
   return sum_draws(context, x, vertices_that_may_count(context, x, context.settings.max_depth), nullptr,
                    context.settings.max_depth, parameters_.samples, u);
 }
@@ -60,6 +63,8 @@ VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, Vert
       log_connection(context, x, vpls_, candidates_.vpl(draw.candidate), bound_, contribution / candidate_weight,
                      transmittance, candidate_weight * drawn, candidate_weight);
     }
+    if (!left_over && parameters_.learn_visibility)
+      candidates_.note_visibility(draw.candidate, !is_black(transmittance));
     if (is_black(transmittance)) continue;
     light.from(vpl) += contribution * transmittance * drawn;
   }

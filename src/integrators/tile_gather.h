@@ -11,7 +11,8 @@ namespace gradslc {
 /// The two-level gathering of DESIGN 5.
 struct TileParameters {
   int size = 16, candidates = 512, samples = 10;
-  float defensive = 0.1f, cosine_floor = 0.2f;
+  float defensive = 0.1f, cosine_floor = 0.2f, power_share = 0.1f;
+  bool learn_visibility = true;
 };
 
 inline void describe(ParameterVisitor& v, TileParameters& p) {
@@ -21,6 +22,9 @@ inline void describe(ParameterVisitor& v, TileParameters& p) {
   v.real("defensive", p.defensive, {0, 1e3}, "share",
          "weight of the importance to all of a tile's receivers beside that to representatives");
   v.real("cosine_floor", p.cosine_floor, {0, 1}, "cosine", "least cosine in the importance to representatives");
+  v.real("power_share", p.power_share, {0, 1}, "share", "of the candidates, which are drawn by power instead");
+  v.boolean("learn_visibility", p.learn_visibility,
+            "candidates that a tile's earlier pixels could not see are drawn less often by the later ones");
 }
 
 /// What gathering by tiles has cost.
@@ -62,6 +66,8 @@ class TileGatherer {
   std::vector<CandidateDraw> choice_;
   TileCost cost_;
   std::uint64_t tile_nodes_ = 0;
+  static constexpr int k_gathers_between_lessons = 8;
+  int gathers_ = 0;  ///< of this tile
 };
 
 }  // namespace gradslc

@@ -19,6 +19,7 @@ void CandidateSet::assign(const VplSet& set, std::span<const Candidate> candidat
   vpls_.resize(count), weights_.resize(count);
   groups_.assign(groups, Group{});
   vertices_.assign(groups, 0);
+  tests_.assign(groups, 0), hits_.assign(groups, 0), visibility_.assign(groups, 1);
   geometry_.resize(groups), summed_.resize(groups);
   least_vertex_ = k_infinity, most_vertex_ = 0;
   simple_ = true;
@@ -82,7 +83,8 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
     FloatV geometry = stdx::min(-along_x * along_y * (per_distance2 * per_distance2), cap * g.inverse_pi_f_y);
     stdx::where(!(distance2 > zero), geometry) = 0;
     geometry_[i] = geometry;
-    sum += geometry * stdx::max(stdx::max(diffuse[0] * g.flux[0], diffuse[1] * g.flux[1]), diffuse[2] * g.flux[2]);
+    const FloatV flux = stdx::max(stdx::max(diffuse[0] * g.flux[0], diffuse[1] * g.flux[1]), diffuse[2] * g.flux[2]);
+    sum += visibility_[i] * geometry * flux;
     summed_[i] = sum;
   }
 }
@@ -122,12 +124,34 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
     const FloatV diffuse =
         stdx::max(stdx::max(r.diffuse.r * g.flux[0], r.diffuse.g * g.flux[1]), r.diffuse.b * g.flux[2]);
     const FloatV flux = stdx::max(stdx::max(g.flux[0], g.flux[1]), g.flux[2]);
-    FloatV target = (diffuse + (r.lambert ? zero : other * flux)) * emitted * geometry;
+    FloatV target = (diffuse + (r.lambert ? zero : other * flux)) * emitted * geometry * visibility_[i];
     stdx::where(dark || emitted <= zero, geometry) = 0;
     stdx::where(geometry <= zero || flux <= zero, target) = 0;
     geometry_[i] = geometry;
     sum += target;
     summed_[i] = sum;
+  }
+}
+
+void CandidateSet::note_visibility(std::uint32_t candidate, bool visible) {
+  const auto [group, lane] = place_of(candidate);
+  tests_[group][lane] += 1;
+  if (visible) hits_[group][lane] += 1;
+}
+
+void CandidateSet::learn_visibility() {
+  constexpr std::size_t k_neighbours = 4;       // to either side
+  constexpr float k_prior = 2;                  // tests that the neighbours' share counts for
+  constexpr float k_least_probability = 0.04f;  // nothing is blocked for sure: it may be seen from the next receiver
+  const std::size_t groups = groups_.size();
+  FloatV tests = 0, hits = 0;  // of the neighbours, and the candidate itself
+  for (std::size_t i = 0; i < std::min(k_neighbours, groups); ++i) tests += tests_[i], hits += hits_[i];
+  for (std::size_t i = 0; i < groups; ++i) {
+    if (const std::size_t next = i + k_neighbours; next < groups) tests += tests_[next], hits += hits_[next];
+    if (i > k_neighbours) tests -= tests_[i - k_neighbours - 1], hits -= hits_[i - k_neighbours - 1];
+    const FloatV nearby = (hits + 1) / (tests + 2);
+    const FloatV seen = (hits_[i] + k_prior * nearby) / (tests_[i] + k_prior);
+    visibility_[i] = stdx::sqrt(stdx::max(seen, FloatV(k_least_probability)));
   }
 }
 

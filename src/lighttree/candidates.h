@@ -29,13 +29,21 @@ struct CandidateDraw {
 
 /// A tile's candidates side by side, and a pixel's choice among them (DESIGN 5, step 2): a draw's probability is
 /// proportional to the largest channel of the candidate's unshadowed, bounded contribution over its own probability:
-/// exactly where both lobes are Lambert's, else nearly so (the bounds of the lobes stand for them), and positive
-/// wherever the contribution is. Keeps its memory between uses; one per thread.
+/// exactly where both lobes are Lambert's, else nearly so (the bounds of the lobes stand for them), and to what is
+/// known of its visibility; it is positive wherever the contribution is. Keeps its memory between uses; one per thread.
 class CandidateSet {
  public:
   /// `comb_size`: of draw_candidates().
   void assign(const VplSet& set, std::span<const Candidate> candidates, int comb_size);
   std::size_t size() const { return vpls_.size(); }
+
+  /// Remembers whether a candidate that was drawn could be seen; learn_visibility() makes the choice heed it.
+  void note_visibility(std::uint32_t candidate, bool visible);
+  /// From now on targets are multiplied by the root of the probability with which a candidate is seen, as far as is
+  /// known from it and its neighbours in the tree's order: the best law where the rest of the contribution is known
+  /// (the density that minimises the variance is the root of the second moment, and a visibility is its own square).
+  /// What earlier receivers have met is independent of a later one's draws: these stay unbiased.
+  void learn_visibility();
 
   /// Finds the target of every candidate; choose() draws in proportion.
   void evaluate(const CandidateReceiver& receiver, float bound);
@@ -84,6 +92,7 @@ class CandidateSet {
   std::vector<Group> groups_;
   std::vector<Details> details_;
   std::vector<FloatV> vertices_;
+  std::vector<FloatV> tests_, hits_, visibility_;
   bool simple_ = true;  ///< Lambert VPLs whose two normals are one
   float least_vertex_ = 0, most_vertex_ = 0;
   // Results of evaluate(): cosines over squared distance, bounded; targets summed up lane by lane.

@@ -10,6 +10,7 @@ namespace gradslc {
 struct TileLawSettings {
   float defensive = 0.1f;     ///< share of the importances to all points that may gather; 0 leaves some of them short
   float cosine_floor = 0.2f;  ///< least cosine of the importance to one receiver
+  float power_share = 0;      ///< of the candidates, which are drawn by power instead, wherever the law is not 0
   float bound = k_infinity;   ///< b of connections
   float reach = 0;  ///< vertices as far as this from receivers may gather too, with any normal; 0: there are none
 };
@@ -25,6 +26,7 @@ class TileLaw {
 
   /// Weights of a node's children.
   void weigh(const LightTree& tree, NodeIndex node, LightNode::Lanes& weights) const;
+  const TileLawSettings& settings() const { return settings_; }
 
  private:
   struct Representative {

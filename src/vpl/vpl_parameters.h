@@ -16,14 +16,14 @@ enum class Bounding : std::uint8_t {
 
 /// How VPLs are made and connected to; the object `vpl` of every method that uses them.
 struct VplParameters {
-  std::int64_t light_paths = 2000;
+  std::int64_t light_paths = 1000;
   int max_bounces = 0;
   bool direct = false;
   int passes_per_set = 1;
   float connectable_roughness = 0.1f;
   Bounding bounding = Bounding::compensate;
   double bound = 0;
-  double kappa = 20;
+  double kappa = 14;
 
   LobeSelection lobes() const { return {true, true, connectable_roughness}; }
   /// max_bounces with its default resolved.

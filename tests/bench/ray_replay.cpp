@@ -14,11 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "bench/benchmark_program.h"
 #include "core/parallel.h"
-#include "experiments/cli/process_environment.h"
 #include "experiments/clock.h"
-#include "experiments/config_override.h"
 #include "experiments/method_plan.h"
 #include "scene/loaders/loader.h"
 
@@ -102,15 +100,6 @@ void replay(const RayLog& log) {
   }
 }
 
-MethodPlan method_of(const Arguments& arguments) {
-  JsonDocument document = JsonDocument::from_value("--method", nlohmann::json{{"integrator", arguments.method}});
-  for (const std::string& assignment : arguments.overrides) apply_override(document, assignment);
-  Problems problems;
-  const std::optional<MethodPlan> method = read_method(document, "", all_registries(), problems);
-  if (!method) throw Error(problems.all().front());
-  return *method;
-}
-
 /// A method that renders into a film of its own.
 class Rendering {
  public:
@@ -173,7 +162,7 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   set_thread_count(1);
 
-  const MethodPlan method = method_of(arguments);
+  const MethodPlan method = read_method_options(arguments.method, arguments.overrides);
   fmt::print("us/sample hits/sample shadows/smp Embree us/s  ns/ray   share  scene\n");
   for (const std::string& file : arguments.scenes) print_row(file, measure_scene(arguments, method, file));
   return 0;
@@ -182,12 +171,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace gradslc
 
-int main(int argc, char** argv) {
-  gradslc::set_process_environment(argv);
-  try {
-    return gradslc::run(argc, argv);
-  } catch (const gradslc::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return gradslc::run_benchmark(gradslc::run, argc, argv); }

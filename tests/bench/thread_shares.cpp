@@ -13,10 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
+#include "bench/benchmark_program.h"
 #include "core/parallel.h"
-#include "experiments/cli/process_environment.h"
-#include "experiments/config_override.h"
 #include "experiments/method_plan.h"
 #include "lighttree/light_tree.h"
 #include "scene/loaders/loader.h"
@@ -69,14 +67,10 @@ struct Arguments {
 };
 
 std::unique_ptr<Integrator> make_gatherer(const Arguments& arguments) {
-  JsonDocument document = JsonDocument::from_value("--set", nlohmann::json{{"integrator", "slc"}});
-  apply_override(document, "vpl.passes_per_set=0");
-  apply_override(document, fmt::format("vpl.light_paths={}", arguments.light_paths));
-  for (const std::string& assignment : arguments.gather_overrides) apply_override(document, assignment);
-  Problems problems;
-  const std::optional<MethodPlan> method = read_method(document, "", all_registries(), problems);
-  if (!method) throw Error(problems.all().front());
-  return make_integrator(*method);
+  std::vector<std::string> overrides = {"vpl.passes_per_set=0",
+                                        fmt::format("vpl.light_paths={}", arguments.light_paths)};
+  overrides.insert(overrides.end(), arguments.gather_overrides.begin(), arguments.gather_overrides.end());
+  return make_integrator(read_method_options("slc", overrides));
 }
 
 void print_row(const char* name, const Stage& stage) {
@@ -135,12 +129,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace gradslc
 
-int main(int argc, char** argv) {
-  gradslc::set_process_environment(argv);
-  try {
-    return gradslc::run(argc, argv);
-  } catch (const gradslc::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return gradslc::run_benchmark(gradslc::run, argc, argv); }

@@ -83,15 +83,7 @@ TEST(DirectLightThroughVpls, OfOneLampOverAPlane) {
 // compensates VPLs, and by the sky's share of the power of all emitters without VPLs, which is 1.
 TEST(DirectLightThroughVpls, LeavesTheSkyToNextEventEstimation) {
   constexpr double k_albedo = 0.5;
-  const Scene scene(load_scene_text(R"(<scene version="3.0.0">
-    <sensor type="perspective"><float name="fov" value="20"/>
-      <transform name="to_world"><lookat origin="0, 5, 0" target="0, 0, 0" up="0, 0, 1"/></transform></sensor>
-    <shape type="rectangle"><transform name="to_world"><scale value="3"/><rotate x="1" angle="-90"/></transform>
-      <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
-    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="-1"/></transform>
-      <emitter type="area"><rgb name="radiance" value="40"/></emitter></shape>
-    <emitter type="constant"><rgb name="radiance" value="1"/></emitter></scene>)",
-                                    "sky_and_lamp.xml", {.width = 16, .height = 16}));
+  const Scene scene = open_furnace({16, 16});
   for (const double bound : {0.0, 100.0})
     for (Method method : direct_methods(50)) {
       method.parameters["vpl/bound"] = bound;

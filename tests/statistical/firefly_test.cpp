@@ -59,6 +59,15 @@ float largest_ratio(const Image<float>& local, const Luminance& luminance_of) {
   return largest;
 }
 
+/// The brightest connection with a VPL over what the reference has nearby, in an image of k_passes.
+float largest_connection(const Film& film, const Image<float>& local) {
+  const DebugImage debug = film.debug();
+  return largest_ratio(local, [&](std::size_t i) {
+    const Largest& c = debug[i].contribution;
+    return c.part == Part::vpl ? c.luminance / k_passes : 0;
+  });
+}
+
 TEST_P(Fireflies, ComeFromNoConnectionWithAVpl) {
   if (!std::filesystem::exists(GetParam().path()))
     GTEST_SKIP() << "the folder of real scenes is not beside the repository: ../shared/scenes";
@@ -68,11 +77,7 @@ TEST_P(Fireflies, ComeFromNoConnectionWithAVpl) {
   const Image<float> local = local_maximum(render(methods[1], scene, 192, 31).film.primal());
   for (const Method& method : methods) {
     const auto [film, seconds] = render(method, scene, k_passes, 32);
-    const DebugImage debug = film.debug();
-    const float connection = largest_ratio(local, [&](std::size_t i) {
-      const Largest& c = debug[i].contribution;
-      return c.part == Part::vpl ? c.luminance / k_passes : 0;
-    });
+    const float connection = largest_connection(film, local);
     EXPECT_LT(connection, k_limit) << method.label;
 
     const RgbImage image = film.primal(), by_vpls = film.part(Part::vpl);
@@ -83,6 +88,15 @@ TEST_P(Fireflies, ComeFromNoConnectionWithAVpl) {
     fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", GetParam().label(), method.label, connection, rest,
                largest_ratio(local, [&](std::size_t i) { return luminance(spt[i]); }));
   }
+}
+
+// A control: without bounding there are connections far beyond the limit.
+TEST(FirefliesControl, AreSeenWhereConnectionsAreNotBounded) {
+  const Scene scene(load_scene(all_scenes().front().path().string(), {.width = 28, .height = 28}));
+  const Image<float> local =
+      local_maximum(render({"slc tile", "slc", {{"gather", "tile"}}}, scene, 64, 31).film.primal());
+  const Film film = render({"unbounded", "slc", {{"vpl/bounding", "none"}}}, scene, k_passes, 32).film;
+  EXPECT_GT(largest_connection(film, local), k_limit);
 }
 
 }  // namespace

@@ -65,15 +65,7 @@ TEST(ClosedFurnace, ShallowestIndirectLight) { expect_furnace({}, 3); }
 // (a lamp that shines away from the floor takes three quarters of it).
 TEST(OpenFurnace, TheEnvironmentIsWeightedByItsShareOfPower) {
   constexpr float k_albedo = 0.5f;
-  const std::string text = R"(<scene version="3.0.0">
-    <sensor type="perspective"><float name="fov" value="20"/>
-      <transform name="to_world"><lookat origin="0, 5, 0" target="0, 0, 0" up="0, 0, 1"/></transform></sensor>
-    <shape type="rectangle"><transform name="to_world"><scale value="3"/><rotate x="1" angle="-90"/></transform>
-      <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
-    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="-1"/></transform>
-      <emitter type="area"><rgb name="radiance" value="40"/></emitter></shape>
-    <emitter type="constant"><rgb name="radiance" value="1"/></emitter></scene>)";
-  const Scene scene(load_scene_text(text, "open_furnace.xml", {.width = 16, .height = 16}));
+  const Scene scene = open_furnace({16, 16});
   for (const Method& method : {Method{"spt", "spt", {}}, Method{"slc", "slc", {{"vpl/light_paths", 50.0}}}}) {
     const auto moments =
         block_moments(method, scene, {.max_depth = 3}, {.runs = 50, .passes = 16, .block = 16, .seed = 12});

@@ -19,6 +19,23 @@ void append_quad(TriangleMesh& mesh, Point3 corner, Vec3 u, Vec3 v) {
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
+constexpr const char* k_open_furnace = R"(
+<scene version="3.0.0">
+  <sensor type="perspective">
+    <float name="fov" value="20"/>
+    <transform name="to_world"><lookat origin="0, 5, 0" target="0, 0, 0" up="0, 0, 1"/></transform>
+  </sensor>
+  <shape type="rectangle">
+    <transform name="to_world"><scale value="3"/><rotate x="1" angle="-90"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+  </shape>
+  <shape type="rectangle">
+    <transform name="to_world"><rotate x="1" angle="90"/><translate y="-1"/></transform>
+    <emitter type="area"><rgb name="radiance" value="40"/></emitter>
+  </shape>
+  <emitter type="constant"><rgb name="radiance" value="1"/></emitter>
+</scene>)";
+
 constexpr const char* k_glossy_box = R"(
   <shape type="rectangle">
     <transform name="to_world"><rotate x="1" angle="-90"/><translate y="-1"/></transform>
@@ -201,6 +218,11 @@ Scene closed_furnace(Rgb albedo, Resolution resolution, float scale) {
   description.meshes = {walls};
   description.camera = camera_at(resolution, scaled({0.2f, 0.1f, -0.3f}, scale), scaled({1, 0.5f, 1}, scale), 70);
   return Scene(std::move(description));
+}
+
+Scene open_furnace(Resolution resolution) {
+  return Scene(
+      load_scene_text(k_open_furnace, "open_furnace.xml", {.width = resolution.width, .height = resolution.height}));
 }
 
 Scene test_box(Resolution resolution, const TestBox& options) {

@@ -25,6 +25,10 @@ PerspectiveCamera camera_at(Resolution resolution, Point3 position, Point3 targe
 /// a path of exactly D edges brings albedo^(D-1) everywhere.
 Scene closed_furnace(Rgb albedo, Resolution resolution, float scale = 1);
 
+/// A Lambertian floor of albedo 0.5 under a sky of radiance 1, which is 0.5 bright everywhere, and a lamp of most of
+/// the emitters' power that shines away from it.
+Scene open_furnace(Resolution resolution);
+
 /// A box of side 2 with coloured walls, a lamp under its ceiling and a block; with `mirror`, the block is a mirror that
 /// throws a caustic, and the back wall is a mirror, too. With `bent_normals`, the walls' shading normals lean outwards
 /// at their corners by some 40 degrees.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -36,7 +37,8 @@ TEST(Comb, CountsAreWhatTheProbabilitiesSayAndNoVplThatLightsAReceiverIsMissed) 
     const LightTree tree = pairs(random_vpls(random, 1 + random.below(200), 1, glossy));
     const Tile tile = random_tile(random, 1 + random.below(40), glossy);
     const float bound = round % 3 == 0 ? k_infinity : 0.7f;
-    const TileLaw law(tile.receivers, {.bound = bound});
+    const float power_share = static_cast<float>(round % 4) / 3;
+    const TileLaw law(tile.receivers, {.power_share = power_share, .bound = bound});
     const int size = 1 + static_cast<int>(random.below(64));
     std::vector<double> mean_count(tree.set.vpls.size(), 0), probability(tree.set.vpls.size(), 0);
     std::vector<Candidate> candidates;
@@ -60,6 +62,42 @@ TEST(Comb, CountsAreWhatTheProbabilitiesSayAndNoVplThatLightsAReceiverIsMissed) 
           // Only a probability below the grid's resolution may go unseen.
           EXPECT_LT(sum, 1) << "VPL " << i;
         }
+  }
+}
+
+TEST(Comb, MixesTheLawWithPower) {
+  TestRandom random(9);
+  for (int round = 0; round < 50; ++round) {
+    const LightTree tree = pairs(random_vpls(random, 2 + random.below(7), 1, round % 2 == 0));  // one node
+    const Tile tile = random_tile(random, 40, round % 2 == 0);
+    alignas(32) LightNode::Lanes weights;
+    TileLaw(tile.receivers, {.bound = 1}).weigh(tree, 0, weights);
+    double weight_sum = 0, power_sum = 0;
+    for (int lane = 0; lane < LightNode::k_width; ++lane)
+      if (weights[lane] > 0)
+        weight_sum += static_cast<double>(weights[lane]),
+            power_sum += static_cast<double>(tree.nodes[0].capped_flux[lane]);
+    for (const float power_share : {0.0f, 0.25f, 1.0f}) {
+      std::vector<Candidate> candidates;
+      const TileLaw law(tile.receivers, {.power_share = power_share, .bound = 1});
+      draw_candidates(tree, law, 1 << 16, 0.5, candidates);
+      std::size_t alive = 0;
+      for (int lane = 0; lane < LightNode::k_width; ++lane) {
+        if (weights[lane] == 0) continue;
+        const double by_law = static_cast<double>(weights[lane]) / weight_sum;
+        const double by_power = static_cast<double>(tree.nodes[0].capped_flux[lane]) / power_sum;
+        const double expected =
+            (1 - static_cast<double>(power_share)) * by_law + static_cast<double>(power_share) * by_power;
+        const auto drawn = std::find_if(candidates.begin(), candidates.end(),
+                                        [&](const Candidate& c) { return c.vpl == tree.nodes[0].vpl(lane); });
+        if (expected * (1 << 16) < 1) continue;  // may have been missed
+        ASSERT_NE(drawn, candidates.end());
+        EXPECT_NEAR(drawn->probability, expected, 1e-9);
+        EXPECT_NEAR(drawn->count, expected * (1 << 16), 1.0);
+        ++alive;
+      }
+      EXPECT_GT(alive, 0u);
+    }
   }
 }
 
@@ -216,6 +254,52 @@ TEST(Candidates, DrawsAreWhatTheProbabilitiesSay) {
     if (total == 0) continue;
     for (std::uint32_t i = 0; i < candidates.size(); ++i)
       EXPECT_NEAR(mean_count[i], samples * static_cast<double>(candidates.target(i)) / total, 1.01 / k_places + 1e-4);
+  }
+}
+
+TEST(Candidates, TargetsHeedWhatIsKnownOfVisibility) {
+  TestRandom random(8);
+  CandidateSet candidates;
+  for (const bool glossy : {false, true}) {  // both kernels
+    const LightTree tree = pairs(random_vpls(random, 200, 1, glossy));
+    const ShadedPoint x = random_gather_point(random, 1.2f, glossy);
+    const CandidateReceiver receiver = make_candidate_receiver({x, LobeSelection()}, 1, 5);
+    const auto targets = [&] {
+      candidates.evaluate(receiver, 1);
+      std::vector<float> found;
+      for (std::uint32_t i = 0; i < candidates.size(); ++i) found.push_back(candidates.target(i));
+      return found;
+    };
+    const std::vector<Candidate> all = every_vpl(random, tree.set);
+    candidates.assign(tree.set, all, 10);
+    const std::vector<float> before = targets();
+    const float tolerance = 1e-4f * *std::max_element(before.begin(), before.end());
+
+    std::vector<float> tests(before.size(), 0), hits(before.size(), 0);
+    for (std::uint32_t i = 0; i < before.size(); i += 1 + static_cast<std::uint32_t>(random.below(3)))
+      for (int n = static_cast<int>(random.below(40)); n > 0; --n) {
+        const bool visible = random.get1() < (i % 3 == 0 ? 0.0f : i % 3 == 1 ? 0.3f : 1.0f);
+        candidates.note_visibility(i, visible);
+        tests[i] += 1, hits[i] += visible ? 1.0f : 0.0f;
+      }
+    EXPECT_EQ(targets(), before) << "noting alone changes nothing";
+    candidates.learn_visibility();
+    const std::vector<float> after = targets();
+
+    const int lanes = static_cast<int>(FloatV::size()), count = static_cast<int>(before.size());
+    const int in_a_lane = (count + lanes - 1) / lanes;  // neighbours are those of the same lane
+    for (int i = 0; i < count; ++i) {
+      const int first = i / in_a_lane * in_a_lane, last = std::min(first + in_a_lane, count) - 1;
+      float nearby_tests = 0, nearby_hits = 0;
+      for (int j = std::max(i - 4, first); j <= std::min(i + 4, last); ++j)
+        nearby_tests += tests[static_cast<std::size_t>(j)], nearby_hits += hits[static_cast<std::size_t>(j)];
+      const auto own = static_cast<std::size_t>(i);
+      const float seen = (hits[own] + 2 * (nearby_hits + 1) / (nearby_tests + 2)) / (tests[own] + 2);
+      EXPECT_NEAR(after[own], before[own] * std::sqrt(std::max(seen, 0.04f)), 1e-4f * before[own] + tolerance);
+      EXPECT_EQ(after[own] > 0, before[own] > 0) << "what was never seen stays possible";
+    }
+    candidates.assign(tree.set, all, 10);
+    EXPECT_EQ(targets(), before) << "another tile begins anew";
   }
 }
 
