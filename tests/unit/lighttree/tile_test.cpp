@@ -175,6 +175,7 @@ TEST(Comb, WeightsDoNotDependOnTheUnitOfLength) {
 /// All VPLs of a set as candidates, with random counts and probabilities.
 std::vector<Candidate> every_vpl(TestRandom& random, const VplSet& set) {
   std::vector<Candidate> candidates;
+  candidates.reserve(set.vpls.size());
   for (std::uint32_t i = 0; i < set.vpls.size(); ++i)
     candidates.push_back({i, 1 + static_cast<std::uint32_t>(random.below(3)), 0.01 + 0.5 * random.get1_double()});
   return candidates;
@@ -267,6 +268,7 @@ TEST(Candidates, TargetsHeedWhatIsKnownOfVisibility) {
     const auto targets = [&] {
       candidates.evaluate(receiver, 1);
       std::vector<float> found;
+      found.reserve(candidates.size());
       for (std::uint32_t i = 0; i < candidates.size(); ++i) found.push_back(candidates.target(i));
       return found;
     };
