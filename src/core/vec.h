@@ -15,7 +15,8 @@ constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 constexpr Vec2 operator*(Vec2 a, float s) { return {a.x * s, a.y * s}; }
 constexpr Vec2 operator*(float s, Vec2 a) { return a * s; }
 
-/// A direction or displacement.
+/// A direction or displacement. What is called for each vertex of a path, and not inlined, takes it by reference: by
+/// value it goes in two registers, which g++ fills by way of memory and waits for.
 struct Vec3 {
   float x = 0, y = 0, z = 0;
   constexpr float operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }

@@ -12,9 +12,8 @@ PixelSample make_pixel_sample(const Scene& scene, const RenderSettings& settings
 
 std::optional<DirectSample> choose_emitter(PathContext& context, const PathVertex& vertex, EmitterChoice choice) {
   const auto index = static_cast<std::uint32_t>(vertex.edges);
-  const double u_emitter = context.random.get1_double(Use::emitter, index);
-  const Vec2 u_point = context.random.get2(Use::emitter_point, index);
-  return context.scene.emitters().sample_direct(vertex.point.position, u_emitter, u_point, choice);
+  const auto [u, v] = context.random.get_choice(Use::emitter, index);
+  return context.scene.emitters().sample_direct(vertex.point.position, u, v, choice);
 }
 
 Ray shadow_ray(const SurfacePoint& from, const DirectSample& light) {
@@ -72,7 +71,7 @@ void log_emitter_hit(const PathContext& context, const Ray& ray, const std::opti
   context.log->add(event, brought, by_parts);
 }
 
-LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
+LobeWeights lobe_weights(const PathVertex& vertex, const Vec3& wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation) {
   const float cos_over_pdf = std::abs(wi.z) / pdf_solid_angle;
   const Bsdf::Split f = vertex.bsdf.eval_split(vertex.wo, wi, lobes);
@@ -86,14 +85,15 @@ LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, con
   return lobe_weights(vertex, sample.direction, sample.pdf_solid_angle, lobes, compensation);
 }
 
-Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin) {
+Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, const Vec3& wo, const RayOrigin& origin) {
   const Emitters& emitters = context.scene.emitters();
   const Rgb radiance = emitters.radiance(hit, wo);
   if (is_black(radiance) || origin.emission_only_by_hit) return radiance;
   return radiance * power_heuristic(origin.pdf_solid_angle, emitters.pdf_direct(origin.position, hit));
 }
 
-Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin, EmitterChoice choice) {
+Rgb environment_radiance(const PathContext& context, const Vec3& direction, const RayOrigin& origin,
+                         EmitterChoice choice) {
   Rgb sum;
   for (const auto& [light, among_all, among_lights] : context.scene.emitters().environments()) {
     const Rgb radiance = light->radiance(direction);

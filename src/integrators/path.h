@@ -65,7 +65,7 @@ struct Compensation {
 struct PathVertex : ShadedPoint {
   int edges = 0;  ///< of the path from the camera up to here
 };
-inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, Vec3 wo, int edges) {
+inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, const Vec3& wo, int edges) {
   PathVertex vertex;
   scene.shade(hit, wo, vertex);
   vertex.edges = edges;
@@ -100,7 +100,7 @@ void log_emitter_hit(const PathContext& context, const Ray& ray, const std::opti
                      Rgb weighted_radiance, const PartValues& brought, bool by_parts);
 
 /// Splits the value of the selected lobes towards wi; each times |cos| over pdf.
-LobeWeights lobe_weights(const PathVertex& vertex, Vec3 wi, float pdf_solid_angle, const LobeSelection& lobes,
+LobeWeights lobe_weights(const PathVertex& vertex, const Vec3& wi, float pdf_solid_angle, const LobeSelection& lobes,
                          const Compensation* compensation);
 /// The same for a sampled direction.
 LobeWeights lobe_weights(const PathVertex& vertex, const BsdfSample& sample, const LobeSelection& lobes,
@@ -143,9 +143,9 @@ void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSe
 }
 
 /// Radiance of an emitter at `hit` towards the ray's origin, weighted against next-event estimation.
-Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, Vec3 wo, const RayOrigin& origin);
+Rgb emitted_radiance(const PathContext& context, const SurfacePoint& hit, const Vec3& wo, const RayOrigin& origin);
 /// The same for a ray that leaves the scene in `direction`. `choice`: of next-event estimation at the origin.
-Rgb environment_radiance(const PathContext& context, Vec3 direction, const RayOrigin& origin,
+Rgb environment_radiance(const PathContext& context, const Vec3& direction, const RayOrigin& origin,
                          EmitterChoice choice = EmitterChoice::all);
 
 /// Traces a path's next edge, counts it in `edges` and adds what an emitter at its end brings: `emission`(hit), of an

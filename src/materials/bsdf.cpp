@@ -12,7 +12,7 @@ auto visit_lobe(const Lobe& lobe, const Function& function) {
   return std::visit(function, lobe);
 }
 
-float energy_of(const Bsdf::Entry& entry, Vec3 known) {
+float energy_of(const Bsdf::Entry& entry, const Vec3& known) {
   return max_channel(entry.weight * visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.energy(known); }));
 }
 
@@ -33,7 +33,7 @@ struct Choice {
   float total = 0;
 
   template <class Entries>
-  Choice(const Entries& entries, Vec3 known, const LobeSelection& lobes) {
+  Choice(const Entries& entries, const Vec3& known, const LobeSelection& lobes) {
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (lobes.includes(entries[i].roughness)) total += energies[i] = energy_of(entries[i], known);
   }
@@ -57,7 +57,7 @@ struct Choice {
 
   /// Density of the directions that are sampled by this choice, 1/sr; total > 0.
   template <class Entries>
-  float pdf_solid_angle(const Entries& entries, Vec3 known, Vec3 w) const {
+  float pdf_solid_angle(const Entries& entries, const Vec3& known, const Vec3& w) const {
     float sum = 0;
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (energies[i] > 0)
@@ -77,12 +77,12 @@ void Bsdf::add(const Bsdf& other, Rgb weight) {
   straight_transmittance_ += other.straight_transmittance_ * weight;
 }
 
-Rgb Bsdf::eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
+Rgb Bsdf::eval(const Vec3& wo, const Vec3& wi, const LobeSelection& lobes) const {
   const Split f = eval_split(wo, wi, lobes);
   return f.connectable + f.other;
 }
 
-Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const {
+Bsdf::Split Bsdf::eval_split(const Vec3& wo, const Vec3& wi, const LobeSelection& lobes) const {
   Split sum;
   for (const Entry& entry : entries_)
     if (lobes.includes(entry.roughness))
@@ -91,19 +91,18 @@ Bsdf::Split Bsdf::eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const
   return sum;
 }
 
-std::optional<BsdfSample> Bsdf::sample_only(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
-                                            Transport transport) const {
+std::optional<BsdfSample> Bsdf::sample_only(const Vec3& known, float u_lobe, Vec2 u, Transport transport) const {
   const Entry& entry = entries_[0];
-  std::optional<BsdfSample> sample;
-  if (!lobes.includes(entry.roughness)) return sample;
-  sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_lobe, u, transport); });
+  auto sample = visit_lobe(entry.lobe, [&](const auto& lobe) { return lobe.sample(known, u_lobe, u, transport); });
   if (sample) sample->weight *= entry.weight;
   return sample;
 }
 
-std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+std::optional<BsdfSample> Bsdf::sample(const Vec3& known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                        Transport transport) const {
-  if (entries_.size() == 1) return sample_only(known, u_lobe, u, lobes, transport);
+  if (entries_.size() == 1)
+    return lobes.includes(entries_[0].roughness) ? sample_only(known, u_lobe, u, transport)
+                                                 : std::optional<BsdfSample>();
   const Choice choice(entries_, known, lobes);
   const auto [chosen, u_choice] = choice.choose(u_lobe);
   const auto sample_lobe = [&, u_choice = u_choice](const auto& lobe) {
@@ -132,7 +131,7 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 known, float u_lobe, Vec2 u, const L
   return sample;
 }
 
-float Bsdf::pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const {
+float Bsdf::pdf_solid_angle(const Vec3& known, const Vec3& w, const LobeSelection& lobes) const {
   if (entries_.size() == 1) {
     if (!lobes.includes(entries_[0].roughness)) return 0;
     return unless_delta(entries_[0], 0.0f, [&](const auto& lobe) { return lobe.pdf_solid_angle(known, w); });
@@ -141,9 +140,9 @@ float Bsdf::pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) cons
   return choice.total == 0 ? 0 : choice.pdf_solid_angle(entries_, known, w);
 }
 
-float Bsdf::energy(Vec3 known, const LobeSelection& lobes) const { return Choice(entries_, known, lobes).total; }
+float Bsdf::energy(const Vec3& known, const LobeSelection& lobes) const { return Choice(entries_, known, lobes).total; }
 
-ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) const {
+ReflectionBound Bsdf::connectable_bound(const Vec3& known, const LobeSelection& lobes) const {
   ReflectionBound sum;
   for (const Entry& entry : entries_) {
     if (!lobes.is_connectable(entry.roughness)) continue;
@@ -154,7 +153,7 @@ ReflectionBound Bsdf::connectable_bound(Vec3 known, const LobeSelection& lobes) 
   return sum;
 }
 
-ValueBound Bsdf::connectable_value_bound(Vec3 known, const LobeSelection& lobes) const {
+ValueBound Bsdf::connectable_value_bound(const Vec3& known, const LobeSelection& lobes) const {
   ValueBound sum;
   for (const Entry& entry : entries_) {
     if (!lobes.is_connectable(entry.roughness)) continue;
@@ -184,13 +183,13 @@ bool Bsdf::transmits(const LobeSelection& lobes) const {
   });
 }
 
-float Bsdf::pass_probability(Vec3 known) const {
+float Bsdf::pass_probability(const Vec3& known) const {
   const float passes = max_channel(straight_transmittance_);
   if (passes == 0) return 0;
   return passes / (passes + energy(known, LobeSelection()));
 }
 
-std::optional<Rgb> Bsdf::lambert_albedo(Vec3 known, const LobeSelection& lobes) const {
+std::optional<Rgb> Bsdf::lambert_albedo(const Vec3& known, const LobeSelection& lobes) const {
   Rgb sum;
   for (const Entry& entry : entries_) {
     if (!lobes.is_connectable(entry.roughness)) continue;

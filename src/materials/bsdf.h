@@ -63,24 +63,24 @@ class Bsdf {
   void add_straight_transmittance(Rgb transmittance) { straight_transmittance_ += transmittance; }
 
   /// f, 1/sr, without the cosine, as radiance is scattered from wi to wo; 0 for delta lobes.
-  Rgb eval(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
-  Split eval_split(Vec3 wo, Vec3 wi, const LobeSelection& lobes) const;
+  Rgb eval(const Vec3& wo, const Vec3& wi, const LobeSelection& lobes) const;
+  Split eval_split(const Vec3& wo, const Vec3& wi, const LobeSelection& lobes) const;
   /// Whether sample() uses `u_lobe`.
   bool chooses_lobes() const {
     return entries_.size() > 1 || (entries_.size() == 1 && !std::holds_alternative<Lambert>(entries_[0].lobe));
   }
   /// A direction for a known one; nullopt when nothing can be sampled. `u_lobe` in [0,1) chooses among lobes.
-  std::optional<BsdfSample> sample(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
+  std::optional<BsdfSample> sample(const Vec3& known, float u_lobe, Vec2 u, const LobeSelection& lobes,
                                    Transport transport = Transport::radiance) const;
   /// Density of sample(), 1/sr; 0 for delta lobes.
-  float pdf_solid_angle(Vec3 known, Vec3 w, const LobeSelection& lobes) const;
+  float pdf_solid_angle(const Vec3& known, const Vec3& w, const LobeSelection& lobes) const;
   /// Approximate directional albedo of the selected lobes, largest channel: what lobes are chosen by. 0 only where the
   /// lobes scatter nothing.
-  float energy(Vec3 known, const LobeSelection& lobes) const;
+  float energy(const Vec3& known, const LobeSelection& lobes) const;
   /// Of the connectable lobes.
-  ReflectionBound connectable_bound(Vec3 known, const LobeSelection& lobes) const;
+  ReflectionBound connectable_bound(const Vec3& known, const LobeSelection& lobes) const;
   /// Of the connectable lobes; its max() bounds pi f over the other direction, largest channel.
-  ValueBound connectable_value_bound(Vec3 known, const LobeSelection& lobes) const;
+  ValueBound connectable_value_bound(const Vec3& known, const LobeSelection& lobes) const;
   /// Whether any of the selected lobes exists here, wherever light comes from.
   bool has(const LobeSelection& lobes) const;
   /// Whether any of the selected lobes scatters to the other side.
@@ -90,19 +90,18 @@ class Bsdf {
   Rgb straight_transmittance() const { return straight_transmittance_; }
   /// Probability with which a path that comes by `known`, the direction that the surface was shaded for, passes
   /// straight on instead of being scattered: in proportion to energy. 0 only where nothing passes.
-  float pass_probability(Vec3 known) const;
+  float pass_probability(const Vec3& known) const;
   /// pi f of the connectable lobes where that is the same for all directions on the known one's side: Lambertian
   /// ones only. nullopt elsewhere.
-  std::optional<Rgb> lambert_albedo(Vec3 known, const LobeSelection& lobes) const;
+  std::optional<Rgb> lambert_albedo(const Vec3& known, const LobeSelection& lobes) const;
   /// Sum of the lobes' colours and of what passes straight through: the feature of denoisers.
   Rgb albedo() const;
 
   const auto& entries() const { return entries_; }
 
  private:
-  /// sample() where there is one lobe.
-  std::optional<BsdfSample> sample_only(Vec3 known, float u_lobe, Vec2 u, const LobeSelection& lobes,
-                                        Transport transport) const;
+  /// sample() where there is one lobe, and it is selected.
+  std::optional<BsdfSample> sample_only(const Vec3& known, float u_lobe, Vec2 u, Transport transport) const;
 
   boost::container::static_vector<Entry, k_max_lobes> entries_;
   Rgb straight_transmittance_;

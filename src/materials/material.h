@@ -30,7 +30,7 @@ class Material {
 
   /// Adds its lobes to shading.bsdf and turns shading.frame, the surface's shading frame, where it bends normals or is
   /// two-sided. `known`: unit, world space, the direction in which the path has come to the point.
-  virtual void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const = 0;
+  virtual void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const = 0;
   /// Whether a lobe outside the connectable ones exists anywhere on it. What passes straight through is no lobe.
   virtual bool has_other_lobes(const LobeSelection& lobes) const = 0;
   /// Upper bound of pi f of the connectable lobes anywhere on it for any directions, largest channel; finite.

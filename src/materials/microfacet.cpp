@@ -44,7 +44,7 @@ double visible_beckmann_slope(double c, double s, double u) {
 
 /// The normal of a surface of roughness 1 that is seen from v (Heitz 2018, "Sampling the GGX Distribution of Visible
 /// Normals").
-Vec3 visible_ggx_normal(Vec3 v, Vec2 u) {
+Vec3 visible_ggx_normal(const Vec3& v, Vec2 u) {
   const float squared = v.x * v.x + v.y * v.y;
   const Vec3 t1 = squared > 0 ? Vec3{-v.y, v.x, 0} / std::sqrt(squared) : Vec3{1, 0, 0};
   const Vec3 t2 = cross(v, t1);
@@ -54,7 +54,7 @@ Vec3 visible_ggx_normal(Vec3 v, Vec2 u) {
   return p.x * t1 + y * t2 + std::sqrt(std::max(0.0f, 1 - p.x * p.x - y * y)) * v;
 }
 
-Vec3 visible_beckmann_normal(Vec3 v, Vec2 u) {
+Vec3 visible_beckmann_normal(const Vec3& v, Vec2 u) {
   constexpr float half_step = 0x1p-25f;  // u = 0 would be an infinite slope
   const float sin_theta = std::sqrt(v.x * v.x + v.y * v.y);
   const auto x = static_cast<float>(visible_beckmann_slope(v.z, sin_theta, std::max(u.x, half_step)));
@@ -69,7 +69,7 @@ Microfacet Microfacet::make(MicrofacetType type, float alpha_u, float alpha_v) {
   return {type, std::max(alpha_u, k_min_alpha), std::max(alpha_v, k_min_alpha)};
 }
 
-float Microfacet::d(Vec3 m) const {
+float Microfacet::d(const Vec3& m) const {
   if (m.z <= 0) return 0;
   const float x = m.x / alpha_u, y = m.y / alpha_v, z2 = m.z * m.z;
   const float area = k_pi * alpha_u * alpha_v;
@@ -82,7 +82,7 @@ float Microfacet::d(Vec3 m) const {
   return std::exp(-exponent) / (area * z2 * z2);
 }
 
-float Microfacet::g1_over_cos(Vec3 v) const {
+float Microfacet::g1_over_cos(const Vec3& v) const {
   const float x = alpha_u * v.x, y = alpha_v * v.y, c = std::abs(v.z);
   const float squared = x * x + y * y;
   if (type == MicrofacetType::ggx) return 2 / (c + std::sqrt(c * c + squared));
@@ -91,13 +91,13 @@ float Microfacet::g1_over_cos(Vec3 v) const {
   return 2 / (c * (1 + std::erf(a)) + s * k_inv_sqrt_pi * std::exp(-a * a));
 }
 
-Vec3 Microfacet::sample_visible(Vec3 v, Vec2 u) const {
+Vec3 Microfacet::sample_visible(const Vec3& v, Vec2 u) const {
   const Vec3 stretched = normalize(Vec3{alpha_u * v.x, alpha_v * v.y, v.z});
   const Vec3 m = type == MicrofacetType::ggx ? visible_ggx_normal(stretched, u) : visible_beckmann_normal(stretched, u);
   return normalize(Vec3{alpha_u * m.x, alpha_v * m.y, std::max(m.z, 0.0f)});
 }
 
-float Microfacet::visible_pdf_solid_angle(Vec3 v, Vec3 m) const {
+float Microfacet::visible_pdf_solid_angle(const Vec3& v, const Vec3& m) const {
   return g1_over_cos(v) * std::max(dot(v, m), 0.0f) * d(m);
 }
 

@@ -22,14 +22,14 @@ struct Microfacet {
   /// The sharper one of both directions.
   float roughness() const { return std::min(alpha_u, alpha_v); }
   /// Density of facets by their normal m (unit), 1/sr: the integral of d(m) m.z is 1.
-  float d(Vec3 m) const;
+  float d(const Vec3& m) const;
   /// Smith's masking for a unit direction v, divided by |v.z|: finite at grazing angles. Same for both sides.
-  float g1_over_cos(Vec3 v) const;
-  float g1(Vec3 v) const { return g1_over_cos(v) * std::abs(v.z); }
+  float g1_over_cos(const Vec3& v) const;
+  float g1(const Vec3& v) const { return g1_over_cos(v) * std::abs(v.z); }
   /// A normal of the facets that are seen from v (unit, v.z > 0); `u` in [0,1)^2.
-  Vec3 sample_visible(Vec3 v, Vec2 u) const;
+  Vec3 sample_visible(const Vec3& v, Vec2 u) const;
   /// Density of sample_visible(), 1/sr.
-  float visible_pdf_solid_angle(Vec3 v, Vec3 m) const;
+  float visible_pdf_solid_angle(const Vec3& v, const Vec3& m) const;
 
   /// Upper bound of d() for all normals that are inclined by `theta` in [0, pi/2] or more.
   float max_d(float theta) const;

@@ -18,8 +18,7 @@ enum class Use : std::uint16_t {
   lens,                ///< position on the lens
   lobe,                ///< connectable or other lobe, and the component within
   direction,           ///< direction of a BSDF sample
-  emitter,             ///< which emitter next-event estimation connects to
-  emitter_point,       ///< position on that emitter
+  emitter,             ///< which emitter next-event estimation connects to, and where on it
   roulette,            ///< Russian roulette
   compensation_lobe,   ///< the ray that compensates bounding: component
   compensation,        ///< the ray that compensates bounding: direction
@@ -48,7 +47,8 @@ std::span<const SamplerEntry> sampler_registry();
 /// The random numbers of one sample: a pure function of (kind, seed, stream, sample, use, index), without state.
 /// `stream` is what is sampled (a pixel, a group of pixels, the light paths); `sample` counts its samples, and a
 /// low-discrepancy sampler stratifies over it. Numbers of different streams, seeds, uses and indices are independent.
-/// get1, get1_double and x of get2 are the same number where use and index are the same: ask for one of them only.
+/// get1, get1_double, x of get2 and u of get_choice are the same number where use and index are the same: ask for one
+/// of them only.
 class SampleStream {
  public:
   SampleStream(SamplerKind kind, std::uint64_t seed, std::uint64_t stream, std::uint32_t sample)
@@ -70,6 +70,17 @@ class SampleStream {
   }
   /// In [0,1), with 32 random bits: for choices among many, where a float is too coarse.
   double get1_double(Use use, std::uint32_t index = 0) const { return bits1(use, index) * 0x1p-32; }
+
+  /// A choice among many and a place within what is chosen: as get2(), but `u` with 32 random bits, so that the rest of
+  /// it that the choice leaves serves as well.
+  struct Choice {
+    double u;
+    float v;
+  };
+  Choice get_choice(Use use, std::uint32_t index = 0) const {
+    const SobolPoint bits = bits2(use, index);
+    return {bits.x * 0x1p-32, to_unit_float(bits.y)};
+  }
 
  private:
   /// Outputs of SplitMix64 seeded with the stream's key, by the number's name.

@@ -42,6 +42,10 @@ constexpr std::uint32_t multiply_by_pascal_matrix(std::uint32_t x) {
   return x ^ x >> 16;
 }
 
+/// Keys of the coordinates' scrambles, made of the shuffle's.
+constexpr std::uint64_t sobol_key_of_x(std::uint64_t key) { return fold_multiply(key, 0xd1342543de82ef95u); }
+constexpr std::uint64_t sobol_key_of_y(std::uint64_t key) { return fold_multiply(key, 0xaf251af3b0f025b5u); }
+
 struct SobolPoint {
   std::uint32_t x, y;  ///< coordinates in [0,1) times 2^32
 };
@@ -56,8 +60,8 @@ constexpr std::uint32_t sobol_shuffled_index(std::uint64_t key, std::uint32_t re
 /// 2^-k.
 constexpr SobolPoint sobol_point(std::uint64_t key, std::uint32_t reversed_sample) {
   const std::uint32_t index = sobol_shuffled_index(key, reversed_sample);
-  const std::uint32_t x = laine_karras_permutation(index, mix64(key + k_golden_gamma));
-  const std::uint32_t y = laine_karras_permutation(multiply_by_pascal_matrix(index), mix64(key + 2 * k_golden_gamma));
+  const std::uint32_t x = laine_karras_permutation(index, sobol_key_of_x(key));
+  const std::uint32_t y = laine_karras_permutation(multiply_by_pascal_matrix(index), sobol_key_of_y(key));
   const std::uint64_t both = reverse_bits(std::uint64_t{y} << 32 | x);
   return {static_cast<std::uint32_t>(both >> 32), static_cast<std::uint32_t>(both)};
 }
@@ -65,7 +69,7 @@ constexpr SobolPoint sobol_point(std::uint64_t key, std::uint32_t reversed_sampl
 /// Coordinate x of that point.
 constexpr std::uint32_t sobol_coordinate(std::uint64_t key, std::uint32_t reversed_sample) {
   const std::uint32_t index = sobol_shuffled_index(key, reversed_sample);
-  return reverse_bits(laine_karras_permutation(index, mix64(key + k_golden_gamma)));
+  return reverse_bits(laine_karras_permutation(index, sobol_key_of_x(key)));
 }
 
 }  // namespace gradslc

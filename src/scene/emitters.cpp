@@ -10,7 +10,7 @@ namespace {
 
 /// A density per area as one per solid angle: times distance^2 / cosine at the emitter, whose normal is `n`; 0 where it
 /// does not face the reference.
-float to_solid_angle(double pdf_area, Normal3 n, Vec3 to_reference, float distance) {
+float to_solid_angle(double pdf_area, const Normal3& n, const Vec3& to_reference, float distance) {
   const float projected = dot(n, to_reference);  // distance times cosine
   if (!(projected > 0)) return 0;
   const auto pdf = static_cast<float>(pdf_area * static_cast<double>(distance * distance * (distance / projected)));
@@ -64,22 +64,24 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
                                static_cast<float>(lights_by_power_.probability(i))});
 }
 
-std::optional<DirectSample> Emitters::sample_direct(Point3 reference, double u_select, Vec2 u,
+std::optional<DirectSample> Emitters::sample_direct(const Point3& reference, double u, float v,
                                                     EmitterChoice choice) const {
   const bool among_all = choice == EmitterChoice::all;
   if (among_all ? empty() : lights_.empty()) return std::nullopt;
-  const DiscreteDistribution::Sample chosen = (among_all ? by_power_ : lights_by_power_).sample(u_select);
+  const DiscreteDistribution::Sample chosen = (among_all ? by_power_ : lights_by_power_).sample(u);
+  const Vec2 u_point{chosen.remapped, v};
   const std::size_t triangles = among_all ? triangles_.size() : 0;
-  if (chosen.index < triangles) return sample_triangle(triangles_[chosen.index], reference, u);
-  auto sample = lights_[chosen.index - triangles]->sample_direct(reference, u);
+  if (chosen.index < triangles) return sample_triangle(triangles_[chosen.index], reference, u_point);
+  auto sample = lights_[chosen.index - triangles]->sample_direct(reference, u_point);
   if (sample) sample->pdf_solid_angle *= static_cast<float>(chosen.probability);
   return sample;
 }
 
-std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& emitter, Point3 reference, Vec2 u) {
+std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& emitter, const Point3& reference,
+                                                      Vec2 u) {
   const Vec2 b = square_to_triangle(u);
-  const auto [position, error] = triangle_position(emitter.triangle, b.x, b.y);
-  const Normal3 n = emitter.triangle.shape.normal;
+  const Point3 position = triangle_position(emitter.triangle, b.x, b.y);
+  const auto& [n, error, inset_b, inset_c, kept] = emitter.triangle.shape;
   const Vec3 to_emitter = position - reference;
   const float distance = length(to_emitter);
   const float pdf = to_solid_angle(emitter.pdf_area, n, -to_emitter, distance);
@@ -93,14 +95,14 @@ std::optional<DirectSample> Emitters::sample_triangle(const EmissiveTriangle& em
   return sample;
 }
 
-float Emitters::pdf_direct(Point3 reference, const SurfacePoint& hit) const {
+float Emitters::pdf_direct(const Point3& reference, const SurfacePoint& hit) const {
   const EmissiveTriangle* emitter = find(hit);
   if (!emitter) return 0;
   const Vec3 to_reference = reference - hit.position;
   return to_solid_angle(emitter->pdf_area, emitter->triangle.shape.normal, to_reference, length(to_reference));
 }
 
-Rgb Emitters::radiance(const SurfacePoint& hit, Vec3 wo) const {
+Rgb Emitters::radiance(const SurfacePoint& hit, const Vec3& wo) const {
   const EmissiveTriangle* emitter = find(hit);
   return emitter && dot(emitter->triangle.shape.normal, wo) > 0 ? emitter->radiance : Rgb();
 }
@@ -118,8 +120,8 @@ EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_d
 
 EmissionSample Emitters::sample_triangle_emission(const EmissiveTriangle& emitter, Vec2 u_point, Vec2 u_direction) {
   const Vec2 b = square_to_triangle(u_point);
-  const auto [position, error] = triangle_position(emitter.triangle, b.x, b.y);
-  const Normal3 n = emitter.triangle.shape.normal;
+  const Point3 position = triangle_position(emitter.triangle, b.x, b.y);
+  const auto& [n, error, inset_b, inset_c, kept] = emitter.triangle.shape;
   const Vec3 direction = frame_from_normal(n).to_world(square_to_cosine_hemisphere(u_direction));
   // Le cos / (1 / area * cos / pi)
   const auto flux = static_cast<float>(std::numbers::pi * emitter.area);

@@ -40,14 +40,14 @@ class Emitters {
   /// Total emitted power (flux) per channel.
   Rgb power() const { return power_; }
 
-  /// `u_select` chooses the emitter, `u` the point or direction. nullopt where the choice does not light the reference,
-  /// or there is none.
-  std::optional<DirectSample> sample_direct(Point3 reference, double u_select, Vec2 u,
+  /// `u` chooses the emitter; what is left of it, stretched, and `v` choose the point or direction. Both in [0,1).
+  /// nullopt where the choice does not light the reference, or there is none.
+  std::optional<DirectSample> sample_direct(const Point3& reference, double u, float v,
                                             EmitterChoice choice = EmitterChoice::all) const;
   /// Density of sample_direct among all at a hit: the emitter's triangle was reached from `reference` at `hit`; 1/sr.
-  float pdf_direct(Point3 reference, const SurfacePoint& hit) const;
+  float pdf_direct(const Point3& reference, const SurfacePoint& hit) const;
   /// Radiance that leaves `hit` towards the unit direction `wo`; 0 where it emits nothing.
-  Rgb radiance(const SurfacePoint& hit, Vec3 wo) const;
+  Rgb radiance(const SurfacePoint& hit, const Vec3& wo) const;
   /// Only with !empty().
   EmissionSample sample_emission(double u_select, Vec2 u_point, Vec2 u_direction) const;
 
@@ -66,7 +66,7 @@ class Emitters {
     double pdf_area = 0;  // of sample_direct(), the triangle's choice included
   };
   const EmissiveTriangle* find(const SurfacePoint& hit) const;  // null: it does not emit
-  static std::optional<DirectSample> sample_triangle(const EmissiveTriangle& emitter, Point3 reference, Vec2 u);
+  static std::optional<DirectSample> sample_triangle(const EmissiveTriangle& emitter, const Point3& reference, Vec2 u);
   static EmissionSample sample_triangle_emission(const EmissiveTriangle& emitter, Vec2 u_point, Vec2 u_direction);
 
   std::vector<EmissiveTriangle> triangles_;  // all triangles of the meshes that emit, mesh by mesh

@@ -2,8 +2,10 @@
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
+#include <immintrin.h>
 
 #include <atomic>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -26,14 +28,14 @@ struct SceneRelease {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 
-// Into its place: copies of values that have just been written in smaller pieces make the processor wait.
+// In the pieces that Embree reads: values that were written in smaller ones make the processor wait.
 void to_embree(const Ray& ray, RTCRay& out) {
-  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
-  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
   // Distances start above 0: where a ray starts exactly on another surface's plane, as in corners, that is no hit.
-  out.tnear = std::numeric_limits<float>::min();
+  const float near = std::numeric_limits<float>::min(), time = 0;
+  static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, dir_x) == 16 && offsetof(RTCRay, time) == 28);
+  _mm_store_ps(&out.org_x, _mm_setr_ps(ray.origin.x, ray.origin.y, ray.origin.z, near));
+  _mm_store_ps(&out.dir_x, _mm_setr_ps(ray.direction.x, ray.direction.y, ray.direction.z, time));
   out.tfar = ray.max_distance;
-  out.time = 0;
   out.mask = 0xffffffffu;
   out.id = out.flags = 0;
 }
@@ -186,10 +188,9 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   const PreparedMesh& mesh = prepared_[hit.hit.geomID];
   const PreparedTriangle& triangle = mesh.triangles[hit.hit.primID];
   const float b1 = hit.hit.u, b2 = hit.hit.v;
-  const auto [position, error] = triangle_position(triangle, b1, b2);
   point.emplace();
-  point->position = position;
-  point->error = error;
+  point->position = triangle_position(triangle, b1, b2);
+  point->error = triangle.shape.error;
   point->shading_normal = point->geometric_normal = triangle.shape.normal;
   point->uv = {b1, b2};
   if (mesh.has_uvs) point->uv = interpolate_uv(triangle, b1, b2);
@@ -203,7 +204,7 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   return point;
 }
 
-void Scene::shade(const SurfacePoint& point, Vec3 wo, ShadedPoint& shaded) const {
+void Scene::shade(const SurfacePoint& point, const Vec3& wo, ShadedPoint& shaded) const {
   shaded.point = point;
   MaterialPoint at{point.uv, Vec3(), Vec3()};
   if (needs_derivatives_[point.material]) {

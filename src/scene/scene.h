@@ -51,13 +51,13 @@ class Scene {
   /// The nearest hit, whatever side of the surface.
   std::optional<SurfacePoint> intersect(const Ray& ray) const;
   /// What scattering at a point needs; `wo`: unit, world space, towards where the path has come from.
-  ShadedPoint shade(const SurfacePoint& point, Vec3 wo) const {
+  ShadedPoint shade(const SurfacePoint& point, const Vec3& wo) const {
     ShadedPoint shaded;
     shade(point, wo, shaded);
     return shaded;
   }
   /// The same in place; `shaded` is as it was made.
-  void shade(const SurfacePoint& point, Vec3 wo, ShadedPoint& shaded) const;
+  void shade(const SurfacePoint& point, const Vec3& wo, ShadedPoint& shaded) const;
   /// Whether anything lies on the ray before its max_distance.
   bool occluded(const Ray& ray) const;
   /// What gets along the ray up to its max_distance. Blocked by a surface that lets nothing pass straight through, and

@@ -1,5 +1,7 @@
 #include "scene/triangle.h"
 
+#include <limits>
+
 namespace gradslc {
 namespace {
 
@@ -26,8 +28,18 @@ TriangleShape triangle_shape(Point3 a, Point3 b, Point3 c) {
   const double edges[3] = {length(subtract(c, b)), length(ac), length(ab)};  // opposite to a, b, c
   // longest * slenderness is the product of all edges over twice the area, but at least the longest edge.
   const double longest = std::max({edges[0], edges[1], edges[2]});
-  shape.extent = static_cast<float>(std::max(longest, edges[0] * edges[1] * edges[2] * per_area));
-  for (int i = 0; i < 3; ++i) shape.height_inverse[i] = static_cast<float>(edges[i] * per_area);
+  const double extent = std::max(longest, edges[0] * edges[1] * edges[2] * per_area);
+  double rounding = 0;
+  for (const Point3 corner : {a, b, c})
+    rounding = std::max(rounding, double{dot(abs(as_vec(shape.normal)), abs(from_origin(corner)))});
+  constexpr double unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
+  constexpr double plane_roundings = 12;  // k
+  const double error = unit_roundoff * (2 * rounding + plane_roundings * extent);
+
+  const auto inset = [&](int corner) { return std::min(error * edges[corner] * per_area, 1.0 / 3); };
+  shape.error = static_cast<float>(error);
+  shape.inset_b = static_cast<float>(inset(1)), shape.inset_c = static_cast<float>(inset(2));
+  shape.kept = static_cast<float>(std::max(0.0, 1 - inset(0) - inset(1) - inset(2)));
   return shape;
 }
 

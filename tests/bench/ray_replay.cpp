@@ -7,6 +7,7 @@
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
+#include <immintrin.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -77,22 +78,23 @@ struct Measurement {
   std::size_t rays() const { return closest_hit + shadow; }
 };
 
-RTCRay to_embree(const LoggedRay& logged) {
-  RTCRay ray{};
-  ray.org_x = logged.origin[0], ray.org_y = logged.origin[1], ray.org_z = logged.origin[2];
-  ray.dir_x = logged.direction[0], ray.dir_y = logged.direction[1], ray.dir_z = logged.direction[2];
-  ray.tnear = logged.near, ray.tfar = logged.far;
+// In the pieces that Embree reads, as Scene does it: nothing but Embree is to be measured.
+void to_embree(const LoggedRay& logged, RTCRay& ray) {
+  const auto& [origin, near, direction, far, shadow] = logged;
+  _mm_store_ps(&ray.org_x, _mm_setr_ps(origin[0], origin[1], origin[2], near));
+  _mm_store_ps(&ray.dir_x, _mm_setr_ps(direction[0], direction[1], direction[2], 0));
+  ray.tfar = far;
   ray.mask = 0xffffffffu;
-  return ray;
+  ray.id = ray.flags = 0;
 }
 
 void replay(const RayLog& log) {
   for (const LoggedRay& logged : log.rays) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit hit{};
-    hit.ray = to_embree(logged);
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit hit;
+    to_embree(logged, hit.ray);
+    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     if (logged.shadow)
       __real_rtcOccluded1(log.scene, &context, &hit.ray);
     else

@@ -41,24 +41,24 @@ struct CoatedDiffuse {
   static constexpr bool k_transmits = false;
   static constexpr float roughness() { return k_diffuse_roughness; }
 
-  Rgb eval(Vec3 wo, Vec3 wi) const {
+  Rgb eval(const Vec3& wo, const Vec3& wi) const {
     if (wo.z <= 0 || wi.z <= 0) return Rgb();
     return base * (k_inv_pi * transmittance.inv_eta2() * transmittance(wo.z) * transmittance(wi.z));
   }
-  std::optional<BsdfSample> sample(Vec3 known, float /*u_choice*/, Vec2 u, Transport) const {
+  std::optional<BsdfSample> sample(const Vec3& known, float /*u_choice*/, Vec2 u, Transport) const {
     if (known.z <= 0) return std::nullopt;
     const Vec3 w = square_to_cosine_hemisphere(u);
     if (w.z <= 0) return std::nullopt;
     return BsdfSample{w, k_pi * eval(known, w), cosine_hemisphere_pdf_solid_angle(w.z), false};
   }
-  float pdf_solid_angle(Vec3 known, Vec3 w) const {
+  float pdf_solid_angle(const Vec3& known, const Vec3& w) const {
     return known.z > 0 && w.z > 0 ? cosine_hemisphere_pdf_solid_angle(w.z) : 0;
   }
-  Rgb energy(Vec3 known) const {
+  Rgb energy(const Vec3& known) const {
     return known.z > 0 ? base * (transmittance(known.z) * transmittance.escaping()) : Rgb();
   }
-  ReflectionBound reflection_bound(Vec3 known) const { return {.cosine = max_pi_f(known), .constant = 0}; }
-  float max_pi_f(Vec3 known) const {
+  ReflectionBound reflection_bound(const Vec3& known) const { return {.cosine = max_pi_f(known), .constant = 0}; }
+  float max_pi_f(const Vec3& known) const {
     if (known.z <= 0) return 0;
     return max_channel(base) * transmittance.inv_eta2() * transmittance(known.z) * transmittance.max();
   }

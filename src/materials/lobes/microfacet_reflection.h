@@ -20,14 +20,14 @@ struct MicrofacetReflection {
   static constexpr bool k_transmits = false;
   float roughness() const { return microfacet.roughness(); }
 
-  Rgb eval(Vec3 wo, Vec3 wi) const {
+  Rgb eval(const Vec3& wo, const Vec3& wi) const {
     if (wo.z <= 0 || wi.z <= 0) return Rgb();
     const Vec3 sum = wo + wi;
     const float twice_cos = length(sum);
     const float facets = microfacet.d(sum / twice_cos) * microfacet.g1_over_cos(wo) * microfacet.g1_over_cos(wi) / 4;
     return reflectance * fresnel(std::min(twice_cos / 2, 1.0f)) * facets;
   }
-  std::optional<BsdfSample> sample(Vec3 known, float /*u_choice*/, Vec2 u, Transport) const {
+  std::optional<BsdfSample> sample(const Vec3& known, float /*u_choice*/, Vec2 u, Transport) const {
     if (known.z <= 0) return std::nullopt;
     const Vec3 m = microfacet.sample_visible(known, u);
     const float cos_m = dot(known, m);
@@ -37,13 +37,13 @@ struct MicrofacetReflection {
     const Rgb weight = reflectance * fresnel(std::clamp(cos_m, 0.0f, 1.0f)) * microfacet.g1(w);
     return BsdfSample{w, weight, pdf, false};
   }
-  float pdf_solid_angle(Vec3 known, Vec3 w) const {
+  float pdf_solid_angle(const Vec3& known, const Vec3& w) const {
     if (known.z <= 0 || w.z <= 0) return 0;
     return microfacet.d(normalize(known + w)) * microfacet.g1_over_cos(known) / 4;
   }
-  Rgb energy(Vec3 known) const { return known.z > 0 ? reflectance * fresnel(std::min(known.z, 1.0f)) : Rgb(); }
+  Rgb energy(const Vec3& known) const { return known.z > 0 ? reflectance * fresnel(std::min(known.z, 1.0f)) : Rgb(); }
 
-  ReflectionBound reflection_bound(Vec3 known) const {
+  ReflectionBound reflection_bound(const Vec3& known) const {
     if (known.z <= 0) return {};
     const float theta = inclination(known);
     const float f = fresnel.max(std::cos((theta + k_pi / 2) / 2));  // h halves the angle between known and w
@@ -51,7 +51,7 @@ struct MicrofacetReflection {
     return {.cosine = 0, .constant = 0, .gloss = {peak, peak, microfacet.falloff_alpha2()}};
   }
   /// Off the peak the other direction may graze, where masking over cosine is large: the tail's factor.
-  GlossBound gloss_bound(Vec3 known) const {
+  GlossBound gloss_bound(const Vec3& known) const {
     if (known.z <= 0) return {};
     const float f = fresnel.max(std::cos((inclination(known) + k_pi / 2) / 2));
     const float tail = max_channel(reflectance) * f * facets(known) * microfacet.max_g1_over_cos(0, 1);
@@ -59,7 +59,7 @@ struct MicrofacetReflection {
   }
   /// The normal half-way between directions of inclinations a and b is inclined by |a - b|/2 or more, so that facets
   /// are rarer where the other direction grazes: a bound for each ring of inclinations above known's.
-  float max_pi_f(Vec3 known) const {
+  float max_pi_f(const Vec3& known) const {
     if (known.z <= 0) return 0;
     constexpr int rings = 8;
     const float theta = inclination(known), width = (k_pi / 2 - theta) / rings;
@@ -77,10 +77,10 @@ struct MicrofacetReflection {
  private:
   static constexpr float k_rounding = 1.0005f;  // of eval() and of these bounds, where facets are nearly smooth
   /// What all bounds by direction have in common: pi/4 times the facets' peak and the known direction's masking.
-  float facets(Vec3 known) const {
+  float facets(const Vec3& known) const {
     return k_pi / 4 * microfacet.falloff_peak() * microfacet.g1_over_cos(known) * k_rounding;
   }
-  static float inclination(Vec3 w) { return std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z); }
+  static float inclination(const Vec3& w) { return std::atan2(std::sqrt(w.x * w.x + w.y * w.y), w.z); }
 };
 
 using RoughConductor = MicrofacetReflection<ConductorTerm>;

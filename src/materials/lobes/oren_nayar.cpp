@@ -6,7 +6,7 @@
 namespace gradslc {
 namespace {
 
-float sine(Vec3 w) { return std::sqrt(w.x * w.x + w.y * w.y); }
+float sine(const Vec3& w) { return std::sqrt(w.x * w.x + w.y * w.y); }
 
 /// numerator / denominator, at most k_max_tangent; both >= 0.
 float bounded_tangent(float numerator, float denominator) {
@@ -25,7 +25,7 @@ OrenNayar::OrenNayar(Rgb albedo, float alpha, bool fast_approximation) : albedo_
   c4_ = fast_approximation ? 0 : 0.17f * sigma2 / (sigma2 + 0.13f);
 }
 
-Rgb OrenNayar::eval(Vec3 wo, Vec3 wi) const {
+Rgb OrenNayar::eval(const Vec3& wo, const Vec3& wi) const {
   if (wo.z <= 0 || wi.z <= 0) return Rgb();
   const float sin_o = sine(wo), sin_i = sine(wi);
   const float cos_phi =
@@ -44,7 +44,7 @@ Rgb OrenNayar::eval(Vec3 wo, Vec3 wi) const {
   return k_inv_pi * (albedo_ * single + albedo_ * albedo_ * twice);
 }
 
-std::optional<BsdfSample> OrenNayar::sample(Vec3 known, float /*u_choice*/, Vec2 u, Transport) const {
+std::optional<BsdfSample> OrenNayar::sample(const Vec3& known, float /*u_choice*/, Vec2 u, Transport) const {
   if (known.z <= 0) return std::nullopt;
   const Vec3 w = square_to_cosine_hemisphere(u);
   if (w.z <= 0) return std::nullopt;
@@ -54,13 +54,13 @@ std::optional<BsdfSample> OrenNayar::sample(Vec3 known, float /*u_choice*/, Vec2
 // beta is at most known's angle t, and so tan(beta) cos(w) <= sin(t). The third term never exceeds 0.56 of the largest
 // that the second one has: c3 = 0.278 c2, its angles' factor is at most sin^2(t), tan((alpha + beta)/2) at most
 // 2/cos(t).
-ReflectionBound OrenNayar::reflection_bound(Vec3 known) const {
+ReflectionBound OrenNayar::reflection_bound(const Vec3& known) const {
   if (known.z <= 0) return {};
   const float rho = max_channel(albedo_);
   return {.cosine = rho * c1_ + 2 * rho * rho * c4_, .constant = rho * c2_ * sine(known)};
 }
 
-float OrenNayar::max_pi_f(Vec3 known) const {
+float OrenNayar::max_pi_f(const Vec3& known) const {
   if (known.z <= 0) return 0;
   const float rho = max_channel(albedo_);
   return rho * (c1_ + c2_ * bounded_tangent(sine(known), known.z)) + 2 * rho * rho * c4_;

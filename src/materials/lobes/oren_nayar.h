@@ -20,14 +20,14 @@ class OrenNayar {
   /// the horizon.
   static constexpr float k_max_tangent = 1000;
 
-  Rgb eval(Vec3 wo, Vec3 wi) const;
-  std::optional<BsdfSample> sample(Vec3 known, float u_choice, Vec2 u, Transport transport) const;
-  float pdf_solid_angle(Vec3 known, Vec3 w) const {
+  Rgb eval(const Vec3& wo, const Vec3& wi) const;
+  std::optional<BsdfSample> sample(const Vec3& known, float u_choice, Vec2 u, Transport transport) const;
+  float pdf_solid_angle(const Vec3& known, const Vec3& w) const {
     return known.z > 0 && w.z > 0 ? cosine_hemisphere_pdf_solid_angle(w.z) : 0;
   }
-  Rgb energy(Vec3 known) const { return known.z > 0 ? albedo_ : Rgb(); }
-  ReflectionBound reflection_bound(Vec3 known) const;
-  float max_pi_f(Vec3 known) const;
+  Rgb energy(const Vec3& known) const { return known.z > 0 ? albedo_ : Rgb(); }
+  ReflectionBound reflection_bound(const Vec3& known) const;
+  float max_pi_f(const Vec3& known) const;
   Rgb feature_albedo() const { return albedo_; }
 
  private:

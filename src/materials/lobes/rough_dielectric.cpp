@@ -3,11 +3,11 @@
 namespace gradslc {
 namespace {
 
-Vec3 outwards(Vec3 w) { return {w.x, w.y, std::abs(w.z)}; }
+Vec3 outwards(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
 }  // namespace
 
-RoughDielectric::Facet RoughDielectric::facet_between(Vec3 known, Vec3 w) const {
+RoughDielectric::Facet RoughDielectric::facet_between(const Vec3& known, const Vec3& w) const {
   const bool reflected = known.z * w.z > 0;
   const float eta_known = known.z > 0 ? 1 : eta, eta_w = w.z > 0 ? 1 : eta;
   const Vec3 sum = reflected ? known + w : eta_known * known + eta_w * w;
@@ -32,7 +32,7 @@ float RoughDielectric::reflection_probability(float fresnel) const {
   return reflected + refracted > 0 ? reflected / (reflected + refracted) : 0;
 }
 
-Rgb RoughDielectric::eval(Vec3 wo, Vec3 wi) const {
+Rgb RoughDielectric::eval(const Vec3& wo, const Vec3& wi) const {
   if (wo.z == 0 || wi.z == 0) return Rgb();
   const Facet facet = facet_between(wi, wo);  // its jacobian is dh/dwo
   if (facet.density == 0) return Rgb();
@@ -41,7 +41,7 @@ Rgb RoughDielectric::eval(Vec3 wo, Vec3 wi) const {
                    facet.jacobian);
 }
 
-float RoughDielectric::pdf_solid_angle(Vec3 known, Vec3 w) const {
+float RoughDielectric::pdf_solid_angle(const Vec3& known, const Vec3& w) const {
   if (known.z == 0 || w.z == 0) return 0;
   const Facet facet = facet_between(known, w);
   if (facet.density == 0) return 0;
@@ -50,7 +50,8 @@ float RoughDielectric::pdf_solid_angle(Vec3 known, Vec3 w) const {
          facet.jacobian;
 }
 
-std::optional<BsdfSample> RoughDielectric::sample(Vec3 known, float u_choice, Vec2 u, Transport transport) const {
+std::optional<BsdfSample> RoughDielectric::sample(const Vec3& known, float u_choice, Vec2 u,
+                                                  Transport transport) const {
   if (known.z == 0) return std::nullopt;
   const Vec3 m = microfacet.sample_visible(known.z > 0 ? known : -known, u);
   const float cos_m = dot(known, m);
@@ -70,7 +71,7 @@ std::optional<BsdfSample> RoughDielectric::sample(Vec3 known, float u_choice, Ve
   return BsdfSample{w, colour * (microfacet.g1(w) * scale), pdf, false};
 }
 
-Rgb RoughDielectric::energy(Vec3 known) const {
+Rgb RoughDielectric::energy(const Vec3& known) const {
   if (known.z == 0) return Rgb();
   // Where the surface reflects all, some facets let light pass.
   const float f = std::min(fresnel_dielectric(std::clamp(known.z, -1.0f, 1.0f), eta).reflectance, 0.99f);
@@ -90,7 +91,7 @@ float RoughDielectric::refraction(float cos_known, float ratio) const {
   return k_pi * dense * dense * cos_known * cos_other / (difference * difference);
 }
 
-float RoughDielectric::refraction_bound(Vec3 known, bool by_cosine) const {
+float RoughDielectric::refraction_bound(const Vec3& known, bool by_cosine) const {
   constexpr int rings = 8;
   constexpr float slopes[rings] = {0, 0.3f, 0.6f, 1, 1.5f, 2.2f, 3.5f, 7};  // over roughness
   const float wide = std::max(microfacet.alpha_u, microfacet.alpha_v);
@@ -111,13 +112,13 @@ float RoughDielectric::refraction_bound(Vec3 known, bool by_cosine) const {
   return max_channel(transmittance) * largest * microfacet.g1_over_cos(known) * 1.0005f;
 }
 
-ReflectionBound RoughDielectric::reflection_bound(Vec3 known) const {
+ReflectionBound RoughDielectric::reflection_bound(const Vec3& known) const {
   if (known.z == 0) return {};
   const ReflectionBound reflected = reflecting_side(known).reflection_bound(outwards(known));
   return {.cosine = 0, .constant = std::max(reflected.gloss.peak, refraction_bound(known, true))};
 }
 
-float RoughDielectric::max_pi_f(Vec3 known) const {
+float RoughDielectric::max_pi_f(const Vec3& known) const {
   if (known.z == 0) return 0;
   return std::max(reflecting_side(known).max_pi_f(outwards(known)), refraction_bound(known, false));
 }

@@ -16,7 +16,7 @@ struct SmoothDielectric {
   static constexpr bool k_transmits = true;
   static constexpr float roughness() { return k_delta_roughness; }
 
-  std::optional<BsdfSample> sample(Vec3 known, float u_choice, Vec2 /*u*/, Transport transport) const {
+  std::optional<BsdfSample> sample(const Vec3& known, float u_choice, Vec2 /*u*/, Transport transport) const {
     if (known.z == 0) return std::nullopt;
     const DielectricFresnel fresnel = fresnel_dielectric(known.z, eta);
     const Rgb reflected = reflectance * fresnel.reflectance, refracted = transmittance * (1 - fresnel.reflectance);
@@ -32,7 +32,7 @@ struct SmoothDielectric {
                       1 - probability,
                       true};
   }
-  Rgb energy(Vec3 known) const {
+  Rgb energy(const Vec3& known) const {
     if (known.z == 0) return Rgb();
     const float f = fresnel_dielectric(known.z, eta).reflectance;
     return reflectance * f + transmittance * (1 - f);

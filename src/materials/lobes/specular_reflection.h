@@ -17,15 +17,15 @@ struct SpecularReflection {
   static constexpr bool k_transmits = false;
   static constexpr float roughness() { return k_delta_roughness; }
 
-  std::optional<BsdfSample> sample(Vec3 known, float /*u_choice*/, Vec2 /*u*/, Transport) const {
+  std::optional<BsdfSample> sample(const Vec3& known, float /*u_choice*/, Vec2 /*u*/, Transport) const {
     if (!reflects(known)) return std::nullopt;
     return BsdfSample{{-known.x, -known.y, known.z}, energy(known), 1, true};
   }
-  Rgb energy(Vec3 known) const { return reflects(known) ? reflectance * fresnel(known.z) : Rgb(); }
+  Rgb energy(const Vec3& known) const { return reflects(known) ? reflectance * fresnel(known.z) : Rgb(); }
   Rgb feature_albedo() const { return reflectance * fresnel(1); }
 
  private:
-  static bool reflects(Vec3 known) { return Fresnel::k_both_sides ? known.z != 0 : known.z > 0; }
+  static bool reflects(const Vec3& known) { return Fresnel::k_both_sides ? known.z != 0 : known.z > 0; }
 };
 
 using SmoothConductor = SpecularReflection<ConductorTerm>;

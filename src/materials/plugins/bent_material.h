@@ -12,7 +12,7 @@ class BentMaterial : public Material {
  public:
   BentMaterial(MaterialPtr nested, Texture texture) : nested_(std::move(nested)), texture_(std::move(texture)) {}
 
-  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const final {
+  void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const final {
     shading.frame = bend(point, shading.frame);
     nested_->shade(point, known, shading);
   }

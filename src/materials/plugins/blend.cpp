@@ -12,7 +12,7 @@ class BlendMaterial final : public Material {
   BlendMaterial(Texture weight, MaterialPtr first, MaterialPtr second)
       : weight_(std::move(weight)), first_(std::move(first)), second_(std::move(second)) {}
 
-  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const override {
     const float weight = std::clamp(mean_channel(weight_.eval(point.uv)), 0.0f, 1.0f);
     Shading first{shading.frame, {}}, second{shading.frame, {}};
     if (weight < 1) first_->shade(point, known, first);

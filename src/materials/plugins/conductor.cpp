@@ -9,7 +9,7 @@ class ConductorMaterial final : public Material {
   ConductorMaterial(const ConductorIndex& index, Texture specular_reflectance)
       : term_{index.eta, index.k}, specular_reflectance_(std::move(specular_reflectance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(SmoothConductor{term_, specular_reflectance_.eval(point.uv)});
   }
   bool has_other_lobes(const LobeSelection&) const override { return true; }

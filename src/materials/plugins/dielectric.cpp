@@ -9,7 +9,7 @@ class DielectricMaterial final : public Material {
   DielectricMaterial(float eta, Texture reflectance, Texture transmittance)
       : eta_(eta), reflectance_(std::move(reflectance)), transmittance_(std::move(transmittance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(SmoothDielectric{eta_, reflectance_.eval(point.uv), transmittance_.eval(point.uv)});
   }
   bool has_other_lobes(const LobeSelection&) const override { return true; }

@@ -7,7 +7,7 @@ class DiffuseMaterial final : public Material {
  public:
   explicit DiffuseMaterial(Texture reflectance) : reflectance_(std::move(reflectance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(Lambert{reflectance_.eval(point.uv)});
   }
   bool has_other_lobes(const LobeSelection& lobes) const override { return !lobes.is_connectable(k_diffuse_roughness); }

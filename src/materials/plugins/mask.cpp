@@ -13,7 +13,7 @@ class MaskMaterial final : public Material {
  public:
   MaskMaterial(Texture opacity, MaterialPtr nested) : opacity_(std::move(opacity)), nested_(std::move(nested)) {}
 
-  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const override {
     const Rgb opacity = clamped(opacity_.eval(point.uv));
     if (!is_black(opacity)) {
       Shading opaque{shading.frame, {}};

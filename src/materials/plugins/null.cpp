@@ -6,7 +6,7 @@ namespace {
 /// A surface that is not there.
 class NullMaterial final : public Material {
  public:
-  void shade(const MaterialPoint&, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint&, const Vec3&, Shading& shading) const override {
     shading.bsdf.add_straight_transmittance(Rgb(1));
   }
   bool has_other_lobes(const LobeSelection&) const override { return false; }

@@ -12,7 +12,7 @@ class PlasticMaterial final : public Material {
         nonlinear_(nonlinear),
         specular_reflectance_(std::move(specular_reflectance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(SmoothCoat{{coat_.eta}, specular_reflectance_.eval(point.uv)});
     shading.bsdf.add(SmoothCoatedDiffuse{
         coat_, base_under_coat(diffuse_reflectance_.eval(point.uv), 1 - coat_.escaping_share, nonlinear_)});

@@ -11,7 +11,7 @@ class RoughConductorMaterial final : public Material {
         term_{index.eta, index.k},
         specular_reflectance_(std::move(specular_reflectance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(RoughConductor{microfacets_.at(point.uv), term_, specular_reflectance_.eval(point.uv)});
   }
   bool has_other_lobes(const LobeSelection& lobes) const override {

@@ -14,7 +14,7 @@ class RoughDielectricMaterial final : public Material {
         reflectance_(std::move(reflectance)),
         transmittance_(std::move(transmittance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(
         RoughDielectric{microfacets_.at(point.uv), eta_, reflectance_.eval(point.uv), transmittance_.eval(point.uv)});
   }

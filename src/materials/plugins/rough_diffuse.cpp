@@ -11,7 +11,7 @@ class RoughDiffuseMaterial final : public Material {
   RoughDiffuseMaterial(Texture reflectance, Texture alpha, bool fast_approximation)
       : reflectance_(std::move(reflectance)), alpha_(std::move(alpha)), fast_approximation_(fast_approximation) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(OrenNayar(reflectance_.eval(point.uv), mean_channel(alpha_.eval(point.uv)), fast_approximation_));
   }
   bool has_other_lobes(const LobeSelection& lobes) const override { return !lobes.is_connectable(k_diffuse_roughness); }

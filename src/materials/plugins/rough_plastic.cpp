@@ -15,7 +15,7 @@ class RoughPlasticMaterial final : public Material {
         nonlinear_(nonlinear),
         specular_reflectance_(std::move(specular_reflectance)) {}
 
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(RoughCoat{microfacet_, {eta_}, specular_reflectance_.eval(point.uv)});
     shading.bsdf.add(RoughCoatedDiffuse{{&transmittance_}, base(diffuse_reflectance_.eval(point.uv))});
   }

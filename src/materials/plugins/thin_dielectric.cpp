@@ -10,7 +10,7 @@ class ThinDielectricMaterial final : public Material {
   ThinDielectricMaterial(float eta, Texture reflectance, Texture transmittance)
       : eta_(eta), reflectance_(std::move(reflectance)), transmittance_(std::move(transmittance)) {}
 
-  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const override {
     shading.bsdf.add(ThinPaneReflection{{eta_}, reflectance_.eval(point.uv)});
     const float reflected = thin_pane_reflectance(dot(known, shading.frame.n), eta_);
     shading.bsdf.add_straight_transmittance(transmittance_.eval(point.uv) * (1 - reflected));

@@ -11,13 +11,13 @@ class TwoSidedMaterial final : public Material {
  public:
   TwoSidedMaterial(MaterialPtr front, MaterialPtr back) : front_(std::move(front)), back_(std::move(back)) {}
 
-  void shade(const MaterialPoint& point, Vec3 known, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3& known, Shading& shading) const override {
     const Vec3 n = as_vec(shading.frame.n);
     if (dot(known, n) >= 0) {
       front_->shade(point, known, shading);
       return;
     }
-    const auto mirrored = [n](Vec3 v) { return v - 2 * dot(v, n) * n; };
+    const auto mirrored = [n](const Vec3& v) { return v - 2 * dot(v, n) * n; };
     back_->shade(point, mirrored(known), shading);
     shading.frame = {mirrored(shading.frame.s), mirrored(shading.frame.t),
                      as_normal(mirrored(as_vec(shading.frame.n)))};

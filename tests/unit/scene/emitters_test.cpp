@@ -33,7 +33,7 @@ Scene three_lamps() {
 double gathered(const Scene& scene, Point3 position, Normal3 normal, Random& random) {
   double sum = 0;
   const double u_select = random.uniform();
-  if (const auto light = scene.emitters().sample_direct(position, u_select, random.get2())) {
+  if (const auto light = scene.emitters().sample_direct(position, u_select, random.get1())) {
     const float cosine = dot(light->wi, normal);
     if (cosine > 0 && !scene.occluded(segment(position, light->position)))
       sum += luminance(light->radiance) * cosine * k_inv_pi /
@@ -116,7 +116,7 @@ TEST(Emitters, SampleDirectFollowsPdfDirectOverSolidAngle) {
   int chosen = 0;
   for (int i = 0; i < k_samples; ++i) {
     const double u_select = random.uniform();
-    const auto sample = scene.emitters().sample_direct({0, 0, 0}, u_select, random.get2());
+    const auto sample = scene.emitters().sample_direct({0, 0, 0}, u_select, random.get1());
     if (!sample) continue;
     ++chosen;
     double phi = std::atan2(sample->wi.y, sample->wi.x);
@@ -141,7 +141,7 @@ TEST(Emitters, SampleAndPdfAgreeAtTheSamePoint) {
   for (int i = 0; i < 10000; ++i) {
     const Point3 reference = Point3() + 0.5f * square_to_sphere(random.get2());
     const double u_select = random.uniform();
-    const auto sample = scene.emitters().sample_direct(reference, u_select, random.get2());
+    const auto sample = scene.emitters().sample_direct(reference, u_select, random.get1());
     if (!sample) continue;
     const auto hit = scene.intersect({reference, sample->wi});
     if (!hit || distance(hit->position, sample->position) > 1e-4f) continue;  // another lamp stands before it
@@ -167,7 +167,7 @@ TEST(Emitters, EmitOnTheSideOfTheNormalOnly) {
       ASSERT_TRUE(hit);
       EXPECT_EQ(scene.emitters().radiance(*hit, {0, 0, side}), lit ? Rgb(3) : Rgb());
       EXPECT_EQ(scene.emitters().pdf_direct(reference, *hit) > 0, lit);
-      EXPECT_EQ(scene.emitters().sample_direct(reference, 0.5, {0.5f, 0.5f}).has_value(), lit);
+      EXPECT_EQ(scene.emitters().sample_direct(reference, 0.5, 0.5f).has_value(), lit);
     }
     const EmissionSample emission = scene.emitters().sample_emission(0.5, {0.5f, 0.25f}, {0.3f, 0.7f});
     EXPECT_EQ(emission.ray.direction.z > 0, !flip);
@@ -272,7 +272,7 @@ TEST(Emitters, MayBeAbsent) {
     const Scene scene(std::move(description));
     EXPECT_TRUE(scene.emitters().empty());
     EXPECT_EQ(scene.emitters().power(), Rgb());
-    EXPECT_FALSE(scene.emitters().sample_direct({0, 0, 0}, 0.5, {0.5f, 0.5f}));
+    EXPECT_FALSE(scene.emitters().sample_direct({0, 0, 0}, 0.5, 0.5f));
     const auto hit = scene.intersect({{0, 0, 0.5f}, {0, 0, -1}});
     ASSERT_TRUE(hit);
     EXPECT_EQ(scene.emitters().radiance(*hit, {0, 0, 1}), Rgb());
@@ -287,8 +287,8 @@ TEST(Emitters, ReferencesInThePlaneOfTheLampAreNotLit) {
   const Scene scene(std::move(description));
   Random random(9);
   for (int i = 0; i < 100; ++i) {
-    EXPECT_FALSE(scene.emitters().sample_direct({2, 0.5f, 0}, random.uniform(), random.get2()));
-    EXPECT_FALSE(scene.emitters().sample_direct({0.5f, 0.5f, 0}, random.uniform(), random.get2()));
+    EXPECT_FALSE(scene.emitters().sample_direct({2, 0.5f, 0}, 0.5, random.get1()));
+    EXPECT_FALSE(scene.emitters().sample_direct({0.5f, 0.5f, 0}, 0.5, random.get1()));
   }
 }
 
@@ -323,7 +323,7 @@ TEST(Emitters, OfAllKindsAreChosenByPower) {
   for (const double weight : weights) expected.push_back(k_samples * weight / total);
   for (int i = 0; i < k_samples; ++i) {
     const double u_select = random.uniform();
-    const auto sample = emitters.sample_direct(reference, u_select, random.get2());
+    const auto sample = emitters.sample_direct(reference, u_select, random.get1());
     ASSERT_TRUE(sample);
     if (sample->infinite) {
       ++chosen[1];
@@ -357,7 +357,7 @@ TEST(Emitters, WithoutAreaLightsAreChosenByPower) {
   for (int i = 0; i < k_samples; ++i) {
     const double u_select = random.uniform();
     const auto sample =
-        emitters.sample_direct({0.1f, -0.3f, 0.2f}, u_select, random.get2(), EmitterChoice::without_area_lights);
+        emitters.sample_direct({0.1f, -0.3f, 0.2f}, u_select, random.get1(), EmitterChoice::without_area_lights);
     ASSERT_TRUE(sample);
     ASSERT_TRUE(sample->infinite || sample->delta) << "an area light";
     ++chosen[sample->infinite ? 0 : 1];
@@ -370,7 +370,7 @@ TEST(Emitters, WithoutAreaLightsAreChosenByPower) {
   SceneDescription lamp_alone = test::describe({test::parallelogram({-1, -1, -1}, {0, 0, 2}, {2, 0, 0})});
   add_lamp(lamp_alone, test::parallelogram({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}), Rgb(9, 6, 3));
   const Scene lamp(std::move(lamp_alone));
-  EXPECT_FALSE(lamp.emitters().sample_direct({0, 0, 0}, 0.5, {0.5f, 0.5f}, EmitterChoice::without_area_lights));
+  EXPECT_FALSE(lamp.emitters().sample_direct({0, 0, 0}, 0.5, 0.5f, EmitterChoice::without_area_lights));
 }
 
 // What particles bring to a small rectangle below the lamp is what light sampling finds there. False alarm 0.1 %.
@@ -395,7 +395,7 @@ TEST(Emitters, OfAllKindsGiveTheSameByParticlesAndBySampling) {
     const Vec2 u = random.get2();
     const Point3 position{half.x * (2 * u.x - 1), height, half.y * (2 * u.y - 1)};
     const double u_light = random.uniform();
-    const auto sample = scene.emitters().sample_direct(position, u_light, random.get2());
+    const auto sample = scene.emitters().sample_direct(position, u_light, random.get1());
     const bool lit =
         sample && sample->wi.y > 0 &&
         !scene.occluded(sample->infinite ? Ray{position, sample->wi} : segment(position, sample->position));

@@ -328,7 +328,7 @@ TEST(Lights, WithoutPowerAreHarmless) {
   const Emitters emitters({}, {}, black, k_ball);
   EXPECT_TRUE(emitters.empty());
   EXPECT_TRUE(emitters.environments().empty());
-  EXPECT_FALSE(emitters.sample_direct({1, 2, 3}, 0.5, {0.5f, 0.5f}));
+  EXPECT_FALSE(emitters.sample_direct({1, 2, 3}, 0.5, 0.5f));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Intersect, WithoutUvsGivesBarycentricCoordinates) {
 // A material that asks for derivatives gets those of its point.
 class DerivativeMaterial final : public Material {
  public:
-  void shade(const MaterialPoint& point, Vec3, Shading& shading) const override {
+  void shade(const MaterialPoint& point, const Vec3&, Shading& shading) const override {
     shading.bsdf.add(Lambert{Rgb(point.dp_du.x, point.dp_du.y, point.dp_dv.x)});
   }
   bool has_other_lobes(const LobeSelection&) const override { return false; }
