@@ -150,7 +150,7 @@ class StochasticLightcuts final : public Integrator {
     std::mutex cost_mutex;
     constexpr std::size_t k_tiles_per_chunk = 4;  // memory is kept from tile to tile
     parallel_for(partition.size(), k_tiles_per_chunk, [&](std::size_t begin, std::size_t end) {
-      TileGatherer gatherer(*scene_, tree, tile_, gather_.bound, reach_);
+      TileGatherer gatherer(*scene_, tree, tile_, source_.parameters().lobes(), gather_.bound, reach_);
       VertexGather behind;
       if (reach_ > 0) behind = [&gatherer](auto&&... at) { return gatherer.gather_behind(at...); };
       std::vector<TilePixel> pixels;

@@ -1,6 +1,7 @@
 #include "integrators/tile_gather.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gradslc {
 
@@ -18,7 +19,17 @@ void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
     cost_.nodes += tile_nodes_;
   }
   candidates_.assign(tree_.set, drawn_, parameters_.candidates);
+  calibrate(receivers);
   cost_.candidates += drawn_.size();
+}
+
+void TileGatherer::calibrate(std::span<const Receiver> receivers) {
+  constexpr std::size_t k_points = 4;
+  if (receivers.empty()) return;
+  std::array<Point3, k_points> points;
+  for (std::size_t i = 0; i < k_points; ++i)  // along a diagonal of the tile
+    points[i] = receivers[(2 * i + 1) * (receivers.size() - 1) / (2 * k_points)].position;
+  candidates_.calibrate(vpls_, lobes_, points);
 }
 
 VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {

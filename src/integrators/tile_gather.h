@@ -11,7 +11,7 @@ namespace gradslc {
 /// The two-level gathering of DESIGN 5.
 struct TileParameters {
   int size = 16, candidates = 512, samples = 10;
-  float defensive = 0.1f, cosine_floor = 0.2f, power_share = 0.1f;
+  float defensive = 0.1f, cosine_floor = 0.2f, power_share = 0.4f;
   bool learn_visibility = true;
 };
 
@@ -39,9 +39,16 @@ struct TileCost {
 /// Gathers from VPLs at the points of one tile after the other. Keeps its memory between tiles; one per thread.
 class TileGatherer {
  public:
-  /// `bound`: b. `reach`: how far from the tile's gather points gather_behind() is called; 0: never.
-  TileGatherer(const Scene& scene, const LightTree& tree, const TileParameters& parameters, float bound, float reach)
-      : vpls_{scene.materials(), tree.set}, tree_(tree), parameters_(parameters), bound_(bound), reach_(reach) {}
+  /// `lobes`: those that connect. `bound`: b. `reach`: how far from the tile's gather points gather_behind() is called;
+  /// 0: never.
+  TileGatherer(const Scene& scene, const LightTree& tree, const TileParameters& parameters, const LobeSelection& lobes,
+               float bound, float reach)
+      : vpls_{scene.materials(), tree.set},
+        tree_(tree),
+        parameters_(parameters),
+        lobes_(lobes),
+        bound_(bound),
+        reach_(reach) {}
 
   /// Draws the candidates for all gather points of a tile, `u` in [0,1).
   void begin_tile(std::span<const Receiver> receivers, double u);
@@ -54,12 +61,14 @@ class TileGatherer {
   std::uint64_t tile_nodes() const { return tile_nodes_; }
 
  private:
+  void calibrate(std::span<const Receiver> receivers);
   VplLight sum_draws(PathContext& context, const PathVertex& x, VertexRange range, const Compensation* left_over,
                      int max_edges, int samples, double u);
 
   VplView vpls_;
   const LightTree& tree_;
   const TileParameters& parameters_;
+  LobeSelection lobes_;
   float bound_, reach_;
   std::vector<Candidate> drawn_;
   CandidateSet candidates_;

@@ -60,6 +60,32 @@ void CandidateSet::put(const VplSet& set, std::size_t index) {
   put_vec(details.mirrored, mirrored(vpl.incoming.decode(), shading_normal));
 }
 
+void CandidateSet::calibrate(const VplView& vpls, const LobeSelection& lobes, std::span<const Point3> towards) {
+  constexpr float k_least_share = 0.02f;  // another of the tile's points may be where the lobe is
+  if (simple_) return;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    const Vpl& vpl = vpls[vpls_[i]];
+    if (vpl.is_lambert()) continue;
+    const auto [group, lane] = place_of(i);
+    Details& y = details_[group];
+    const Vec3 image{y.mirrored[0][lane], y.mirrored[1][lane], y.mirrored[2][lane]};
+    const GlossyVpl glossy(vpls, vpl);
+    float share = k_least_share;
+    for (const Point3 point : towards) {
+      const Vec3 d = point - vpl.position;
+      const float squared = length_squared(d);
+      if (!(squared > 0)) continue;
+      const Vec3 wo = d / std::sqrt(squared);
+      const float s2 = std::max(0.5f - 0.5f * std::min(dot(wo, image) + k_cosine_slack, 1.0f), 0.0f);
+      const float bound =
+          y.broad[lane] + std::min<float>(y.peak[lane], y.tail[lane] * gloss_falloff<float>(s2, y.alpha2[lane]));
+      if (bound > 0) share = std::max(share, max_channel(glossy.pi_f(wo, lobes)) / bound);
+    }
+    share = std::min(share, 1.0f);
+    y.broad[lane] *= share, y.peak[lane] *= share, y.tail[lane] *= share;
+  }
+}
+
 void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
   const bool all_count = static_cast<float>(r.least_k) <= least_vertex_ && most_vertex_ <= static_cast<float>(r.most_k);
   if (simple_ && r.lambert && all_count)

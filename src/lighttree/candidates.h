@@ -8,6 +8,7 @@
 #include "core/simd.h"
 #include "lighttree/bounds.h"
 #include "lighttree/comb.h"
+#include "vpl/connection.h"
 
 namespace gradslc {
 
@@ -36,6 +37,9 @@ class CandidateSet {
   /// `comb_size`: of draw_candidates().
   void assign(const VplSet& set, std::span<const Candidate> candidates, int comb_size);
   std::size_t size() const { return vpls_.size(); }
+  /// Corrects what glossy candidates are taken for, which are known by bounds of their lobes: by the largest share of
+  /// the bound that their value has towards some of the tile's points.
+  void calibrate(const VplView& vpls, const LobeSelection& lobes, std::span<const Point3> towards);
 
   /// Remembers whether a candidate that was drawn could be seen; learn_visibility() makes the choice heed it.
   void note_visibility(std::uint32_t candidate, bool visible);

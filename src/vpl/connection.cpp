@@ -1,19 +1,18 @@
 #include "vpl/connection.h"
 
 namespace gradslc {
-namespace {
 
-/// f_c(y) towards the unit direction `wo`, world space, times pi; of a VPL that is not Lambert.
-Rgb glossy_pi_f(const VplView& vpls, const Vpl& y, Vec3 wo, const LobeSelection& lobes) {
+GlossyVpl::GlossyVpl(const VplView& vpls, const Vpl& y) {
   const VplSurface& surface = vpls.set.surfaces[y.surface];
-  Shading shading;
   const float side = surface.behind ? -1.0f : 1.0f;
-  vpls.materials[surface.material]->shade({surface.uv, Vec3(), Vec3()}, {0, 0, side}, shading);
-  const Frame frame = frame_from_normal_and_tangent(as_normal(y.shading_normal.decode()), surface.tangent.decode());
-  return k_pi * shading.bsdf.eval(frame.to_local(wo), frame.to_local(y.incoming.decode()), lobes.only_connectable());
+  vpls.materials[surface.material]->shade({surface.uv, Vec3(), Vec3()}, {0, 0, side}, shading_);
+  shading_.frame = frame_from_normal_and_tangent(as_normal(y.shading_normal.decode()), surface.tangent.decode());
+  incoming_ = shading_.frame.to_local(y.incoming.decode());
 }
 
-}  // namespace
+Rgb GlossyVpl::pi_f(const Vec3& wo, const LobeSelection& lobes) const {
+  return k_pi * shading_.bsdf.eval(shading_.frame.to_local(wo), incoming_, lobes.only_connectable());
+}
 
 Rgb unshadowed_contribution(const GatherPoint& point, const VplView& vpls, const Vpl& y, float bound) {
   const ShadedPoint& x = point.x;
@@ -28,7 +27,7 @@ Rgb unshadowed_contribution(const GatherPoint& point, const VplView& vpls, const
   Rgb reflected = y.flux;
   float pi_f_y = y.max_pi_f;
   if (!y.is_lambert()) {
-    const Rgb pi_f = glossy_pi_f(vpls, y, -wi, point.lobes);
+    const Rgb pi_f = GlossyVpl(vpls, y).pi_f(-wi, point.lobes);
     reflected *= pi_f;
     pi_f_y = max_channel(pi_f);
     if (pi_f_y == 0) return Rgb();

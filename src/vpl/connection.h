@@ -22,6 +22,18 @@ struct VplView {
   const Vpl& operator[](std::size_t index) const { return set.vpls[index]; }
 };
 
+/// f_c(y) of a VPL that is not Lambert, its textures looked up.
+class GlossyVpl {
+ public:
+  GlossyVpl(const VplView& vpls, const Vpl& y);
+  /// pi f_c(y) towards the unit direction `wo`, world space.
+  Rgb pi_f(const Vec3& wo, const LobeSelection& lobes) const;
+
+ private:
+  Shading shading_;
+  Vec3 incoming_;  // local
+};
+
 /// Light from a VPL to a gather point, without the test of visibility: radiance leaving x towards wo,
 ///   min(1, b/K) f_c(x) |cos_x| |cos_y| / d^2 f_c(y) flux,
 /// and 0 where either lobe does not reach, or at distance 0.

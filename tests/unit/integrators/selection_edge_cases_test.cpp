@@ -154,7 +154,8 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
     const std::vector<Receiver> receivers = c.receivers();
     CutSelector alone(c.tree, {.size = 3}, c.bound), shared(c.tree, {.size = 4, .error = 0.2f}, c.bound);
     const TileParameters tile{.candidates = 16, .samples = 3}, least{.candidates = 1, .samples = 1};
-    TileGatherer gatherer(c.scene, c.tree, tile, c.bound, 0), by_one(c.scene, c.tree, least, c.bound, 0);
+    TileGatherer gatherer(c.scene, c.tree, tile, LobeSelection(), c.bound, 0),
+        by_one(c.scene, c.tree, least, LobeSelection(), c.bound, 0);
     constexpr std::size_t k_points = 3;
     Moments by_descent, by_shared_law[k_points], by_tile[k_points], by_one_candidate;
     for (std::uint32_t sample = 0; sample < k_samples; ++sample) {
@@ -190,7 +191,7 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
 TEST(OddVplSets, ATileWithoutReceiversHasNoCandidates) {
   for_each_odd_case([](const OddCase& c) {
     const TileParameters tile{.candidates = 16, .samples = 3};
-    TileGatherer gatherer(c.scene, c.tree, tile, c.bound, 0);
+    TileGatherer gatherer(c.scene, c.tree, tile, LobeSelection(), c.bound, 0);
     gatherer.begin_tile(c.receivers(), 0.5);
     gatherer.begin_tile({}, 0.5);  // forgets the tile before
     PathContext path = context(c.scene, 0);

@@ -229,6 +229,52 @@ TEST(Candidates, TargetsArePositiveWhereverThereIsAContribution) {
   EXPECT_GT(lit, 200u);
 }
 
+// Towards the points that they were calibrated with, glossy candidates are taken for what their lobes are, but for the
+// share of the bound that is left to other directions; everywhere else they stay possible and below the bound.
+TEST(Candidates, GlossyOnesAreCalibratedByTheirValues) {
+  TestRandom random(8);
+  CandidateSet bounded, calibrated;
+  std::size_t compared = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const VplSet one = random_vpls(random, 1, 1, true);
+    const VplView view{materials(), one};
+    const ShadedPoint x = random_gather_point(random, 1.2f), elsewhere = random_gather_point(random, 1.2f);
+    const auto candidates = every_vpl(random, one);
+    bounded.assign(one, candidates, 10), calibrated.assign(one, candidates, 10);
+    const Point3 towards[] = {x.point.position};
+    calibrated.calibrate(view, LobeSelection(), towards);
+    const auto targets = [&](const ShadedPoint& at) {
+      const CandidateReceiver receiver = make_candidate_receiver({at, LobeSelection()}, 1, 5);
+      bounded.evaluate(receiver, k_infinity), calibrated.evaluate(receiver, k_infinity);
+      return std::pair{bounded.target(0), calibrated.target(0)};
+    };
+    const auto [bound_elsewhere, target_elsewhere] = targets(elsewhere);
+    EXPECT_EQ(target_elsewhere > 0, bound_elsewhere > 0);
+    EXPECT_LE(target_elsewhere, bound_elsewhere * 1.0001f);
+    const auto [bound, target] = targets(x);
+    const Vpl& vpl = one.vpls[0];
+    if (vpl.is_lambert()) {
+      EXPECT_EQ(target, bound);
+      continue;
+    }
+    if (!(bound > 0)) continue;
+    const Vec3 d = x.point.position - vpl.position;
+    const float pi_f = max_channel(GlossyVpl(view, vpl).pi_f(normalize(d), LobeSelection()));
+    const float per_pi_f = target / std::max(pi_f, 1e-20f), least = 0.02f * bound;
+    if (target > 1.01f * least) {
+      // f_c(x) |cos_x cos_y| / d^2 flux, by the same VPL as if it were Lambert with pi f = 1.
+      const Rgb albedo = *x.bsdf.lambert_albedo(x.wo, LobeSelection());
+      const float geometry =
+          std::abs(dot(d, vpl.geometric_normal.decode()) * dot(d, x.frame.n)) / (length_squared(d) * length_squared(d));
+      EXPECT_NEAR(per_pi_f / (max_channel(albedo * vpl.flux) * geometry * calibrated.weight(0)), 1, 2e-3f);
+      ++compared;
+    } else {
+      EXPECT_NEAR(target, least, 2e-3f * least);
+    }
+  }
+  EXPECT_GT(compared, 100u);
+}
+
 TEST(Candidates, DrawsAreWhatTheProbabilitiesSay) {
   TestRandom random(6);
   CandidateSet candidates;
