@@ -92,10 +92,11 @@ TEST_P(Fireflies, ComeFromNoConnectionWithAVpl) {
 
 // A control: without bounding there are connections far beyond the limit.
 TEST(FirefliesControl, AreSeenWhereConnectionsAreNotBounded) {
-  const Scene scene(load_scene(all_scenes().front().path().string(), {.width = 28, .height = 28}));
+  const Scene scene(load_scene(all_scenes()[2].path().string(), {.width = 112, .height = 112}));
   const Image<float> local =
       local_maximum(render({"slc tile", "slc", {{"gather", "tile"}}}, scene, 64, 31).film.primal());
-  const Film film = render({"unbounded", "slc", {{"vpl/bounding", "none"}}}, scene, k_passes, 32).film;
+  const Method unbounded{"unbounded", "vpl", {{"vpl/bounding", "none"}, {"selection", "uniform"}, {"samples", 1.0}}};
+  const Film film = render(unbounded, scene, k_passes, 32).film;
   EXPECT_GT(largest_connection(film, local), k_limit);
 }
 
