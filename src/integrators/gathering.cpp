@@ -11,6 +11,7 @@ struct GatherSite {
   LabelledThroughput throughput;  ///< of the path up to x
   const Compensation* left_over;  ///< of the connection to x, where x lies behind a ray itself; otherwise null
   int max_edges;
+  float rays_per_estimate = 1;  ///< mean number of rays over that of next-event estimates
 };
 
 /// Which emitters the ray looks for.
@@ -64,7 +65,7 @@ Rgb gathered_emission(const PathContext& context, const PathVertex& x, const Gat
 void gather_next_event(PathContext& context, const GatherSite& site, const GatherSettings& gather,
                        PartValues& radiance) {
   add_next_event(context, site.x, context.lobes.only_connectable(), site.max_edges, site.throughput, site.left_over,
-                 radiance, gather.next_event);
+                 radiance, gather.next_event, site.rays_per_estimate);
 }
 void send_ray(PathContext& context, const GatherSite& site, const GatherSettings& gather, const VertexGather& vertices,
               PartValues& radiance);
@@ -124,7 +125,8 @@ void send_ray(PathContext& context, const GatherSite& site, const GatherSettings
   const float left_over = site.left_over ? site.left_over->weight(f_x) : 1;
   auto throughput = site.throughput.scattered({sample->weight * left_over, Rgb()});
   if (throughput.is_black()) return;
-  RayOrigin origin{x.point.position, sample->pdf_solid_angle, sample->delta};
+  // Emitters are weighted by the densities of all samples of a kind together (Veach 1997, equation 9.8).
+  RayOrigin origin{x.point.position, site.rays_per_estimate * sample->pdf_solid_angle, sample->delta};
   Ray ray = gathered.ray;
   int edges = x.edges;
   const auto emission = [&](const std::optional<SurfacePoint>& hit) {
@@ -163,31 +165,38 @@ float reach_of_vertices(const Scene& scene, const GatherSettings& gather, int ma
   return std::min(static_cast<float>(max_depth) * step, 2 * scene.bounding_sphere().radius);
 }
 
-float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                          PartValues& radiance, float mean_rays, const VertexGather& vertices) {
+EffortAllocation::Sample gather_without_vpls(PathContext& context, const CameraPrefix& prefix,
+                                             const GatherSettings& gather, PartValues& radiance,
+                                             const GatherEffort& effort, const VertexGather& vertices) {
   if (context.log) context.log->begin_gather(prefix.throughput);
   GatherSite site{*prefix.gather, LabelledThroughput::camera_path(prefix.throughput), nullptr,
-                  context.settings.max_depth};
-  gather_next_event(context, site, gather, radiance);
-  site.throughput.vpl_part = Part::compensation;
-  PartValues brought;
-  if (mean_rays == 1) {
-    if (context.log) context.log->begin_compensation_ray(0, 1);
-    send_ray(context, site, gather, vertices, brought);
-  } else {
-    const auto count = static_cast<std::uint32_t>(mean_rays + context.random.get1(Use::ray_count));
-    const SampleStream random = context.random;
-    for (std::uint32_t ray = 0; ray < count; ++ray) {
-      context.random = random.branch(ray);
-      if (context.log) context.log->begin_compensation_ray(ray, 1 / mean_rays);
-      send_ray(context, site, gather, vertices, brought);
-    }
-    context.random = random;
-    brought *= 1 / mean_rays;
+                  context.settings.max_depth, effort.rays / static_cast<float>(effort.emitters)};
+  const SampleStream random = context.random;
+  const auto estimates = static_cast<std::uint32_t>(effort.emitters);
+  const float emitter_scale = 1 / static_cast<float>(estimates);
+  PartValues by_emitters;
+  for (std::uint32_t estimate = 0; estimate < estimates; ++estimate) {
+    if (estimates > 1) context.random = random.branch(estimate);
+    if (context.log) context.log->begin_next_events(emitter_scale);
+    gather_next_event(context, site, gather, by_emitters);
   }
+  by_emitters *= emitter_scale;
+
+  site.throughput.vpl_part = Part::compensation;
+  const float ray_scale = 1 / effort.rays;
+  const std::uint32_t rays =
+      effort.rays == 1 ? 1 : static_cast<std::uint32_t>(effort.rays + random.get1(Use::ray_count));
+  PartValues by_rays;
+  for (std::uint32_t ray = 0; ray < rays; ++ray) {
+    context.random = effort.rays == 1 ? random : random.branch(ray);
+    if (context.log) context.log->begin_compensation_ray(ray, ray_scale);
+    send_ray(context, site, gather, vertices, by_rays);
+  }
+  by_rays *= ray_scale;
+  context.random = random;
   if (context.log) context.log->end_compensation_rays();
-  radiance += brought;
-  return luminance(brought.total());
+  radiance += by_emitters, radiance += by_rays;
+  return {.by_ray = luminance(by_rays.total()), .by_emitters = luminance(by_emitters.total())};
 }
 
 void log_connection(const PathContext& context, const PathVertex& x, const VplView& vpls, std::uint32_t vpl,

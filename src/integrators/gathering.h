@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "integrators/camera_prefix.h"
+#include "integrators/gather_effort.h"
 #include "vpl/connection.h"
 #include "vpl/vpl_parameters.h"
 
@@ -60,13 +61,14 @@ struct VplLight {
 using VertexGather =
     std::function<Rgb(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges)>;
 
-/// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and the ray through
-/// f_c(x) that brings emitters (weighted against next-event estimation, or with what bounding has taken from VPLs on
-/// them), f_s(y) with weight 1 and f_c(y) with what bounding has taken. `mean_rays` > 0 of these rays are sent on
-/// average: their number is rounded at random, and what they bring divided by the mean. Behind them `vertices`, if
-/// there is one, gathers; otherwise paths go on. Returns the luminance that they brought, all parts together.
-float gather_without_vpls(PathContext& context, const CameraPrefix& prefix, const GatherSettings& gather,
-                          PartValues& radiance, float mean_rays = 1, const VertexGather& vertices = {});
+/// Everything at the gather vertex except light from VPLs: next-event estimation through f_c(x), and rays through
+/// f_c(x) that bring emitters (weighted against next-event estimation, or with what bounding has taken from VPLs on
+/// them), f_s(y) with weight 1 and f_c(y) with what bounding has taken. `effort` says how many of each: what they bring
+/// is divided by their number, that of rays, rounded at random, by its mean. Behind the rays `vertices`, if there is
+/// one, gathers; otherwise paths go on. Tells what each kind brought; `total` and `draw_variance` are left 0.
+EffortAllocation::Sample gather_without_vpls(PathContext& context, const CameraPrefix& prefix,
+                                             const GatherSettings& gather, PartValues& radiance,
+                                             const GatherEffort& effort = {}, const VertexGather& vertices = {});
 
 /// Tells the context's log of a connection whose shadow ray was traced: x gets unshadowed * transmittance * weight.
 void log_connection(const PathContext& context, const PathVertex& x, const VplView& vpls, std::uint32_t vpl,

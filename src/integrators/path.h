@@ -115,11 +115,12 @@ PartValues brought_through(const Throughput& throughput, Rgb radiance) {
 }
 
 /// Next-event estimation at a vertex, through crossings, with multiple importance sampling against a ray sampled from
-/// the same lobes: adds to `radiance` what counts of paths with at most `max_edges` edges.
+/// the same lobes: adds to `radiance` what counts of paths with at most `max_edges` edges. `rays`: such rays for each
+/// estimate.
 template <class Throughput>
 void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSelection& lobes, int max_edges,
                     const Throughput& throughput, const Compensation* compensation, PartValues& radiance,
-                    EmitterChoice choice = EmitterChoice::all) {
+                    EmitterChoice choice = EmitterChoice::all, float rays = 1) {
   if (!connection_may_count(context, vertex.edges + 1, max_edges)) return;
   const auto light = choose_emitter(context, vertex, choice);
   if (!light) return;
@@ -134,7 +135,9 @@ void add_next_event(PathContext& context, const PathVertex& vertex, const LobeSe
   }
   // The sampled ray reaches the emitter if it also passes all crossings.
   const float mis =
-      light->delta ? 1 : power_heuristic(pdf, vertex.bsdf.pdf_solid_angle(vertex.wo, wi, lobes) * passage.probability);
+      light->delta
+          ? 1
+          : power_heuristic(pdf, rays * vertex.bsdf.pdf_solid_angle(vertex.wo, wi, lobes) * passage.probability);
   const Throughput arriving = scattered.transmitted(passage.transmittance).scaled(mis);
   arriving.collect(light->radiance, radiance);
   if (context.log)

@@ -28,6 +28,8 @@ void PathLog::begin_gather(Rgb throughput) {
   note(happening::Gather{throughput});
 }
 
+void PathLog::begin_next_events(float scale) { scale_ = scale; }
+
 void PathLog::begin_compensation_ray(std::uint32_t index, float scale) {
   scale_ = scale;
   vertex_throughput_.reset();

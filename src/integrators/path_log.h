@@ -99,6 +99,8 @@ class PathLog {
   /// Notes what brings no light of its own.
   void note(const Happening& what);
   void begin_gather(Rgb throughput);
+  /// Next-event estimation at the vertex that gathers begins, one of several estimates: each times `scale`.
+  void begin_next_events(float scale);
   void begin_compensation_ray(std::uint32_t index, float scale);
   /// Within such a ray: it gathers at the vertex that it has come to.
   void begin_vertex_gather(Rgb throughput);
@@ -125,7 +127,7 @@ class PathLog {
   bool keeps_entries_ = false;
   Rgb gather_throughput_{1};
   std::optional<Rgb> vertex_throughput_;  ///< while a compensation ray gathers
-  float scale_ = 1;                       ///< of the compensation rays while they are traced
+  float scale_ = 1;                       ///< of next-event estimates or rays at the vertex that gathers
   std::vector<Entry> entries_;
 };
 

@@ -1,9 +1,8 @@
 #include <mutex>
-#include <optional>
 
 #include "core/parallel.h"
 #include "integrators/cut_gather.h"
-#include "integrators/ray_allocation.h"
+#include "integrators/gather_effort.h"
 #include "integrators/record.h"
 #include "integrators/registry.h"
 #include "integrators/tile_gather.h"
@@ -28,17 +27,16 @@ class StochasticLightcuts final : public Integrator {
         "cut_error", cut_limits_.error, {0, 1}, "share",
         "descent: the cut is fine enough once no bound that could be refined is above this share of all; 0: cut_size");
     v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
-    v.group("compensation", "tile: the rays that bring what bounding takes", [&] {
-      gradslc::describe(v, ray_parameters_);
-      v.boolean("gather_vertices", gather_vertices_,
-                "vertices behind these rays gather from the tile's candidates; false: paths go on from there");
-    });
+    v.group("effort", "tile: how many samples of each kind a gather takes", [&] { effort_.describe(v); });
+    v.boolean("gather_vertices", gather_vertices_,
+              "tile: vertices behind the rays that bring what bounding takes gather from the tile's candidates; false: "
+              "paths go on from there");
     source_.describe(v);
   }
 
   void prepare(const Scene& scene, const RenderSettings& settings) override {
     scene_ = &scene, settings_ = settings;
-    allocation_.reset();
+    effort_.reset();
     source_.prepare(scene, settings);
     gather_ = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth);
     reach_ = gather_vertices_ ? reach_of_vertices(scene, gather_, settings.max_depth) : 0;
@@ -49,7 +47,9 @@ class StochasticLightcuts final : public Integrator {
     if (gather_kind_ == Gather::descent)
       render_pixels(slot, source_.vpls_of(slot), film);
     else
-      render_tiles(pass, film);
+      effort_.render_pass(
+          pass, film, tile_.samples,
+          [this](std::uint32_t number, const EffortPlan& plan, Film& target) { render_tiles(number, plan, target); });
     if (slot.closes_set) film.close_set(slot.half);
   }
 
@@ -106,36 +106,8 @@ class StochasticLightcuts final : public Integrator {
     });
   }
 
-  /// Pilot passes send one ray a gather, and note what it brings; later ones as many as the pilots say, with random
-  /// numbers that are independent of the pilots'.
-  void render_tiles(std::uint32_t pass, Film& film) {
-    const auto pilots = static_cast<std::uint32_t>(ray_parameters_.pilot_passes);
-    if (pilots == 0)
-      return render_tiles(
-          pass, film, SeedPurpose::camera, [](Pixel) { return 1.0f; }, [](auto...) {});
-    if (!allocation_) allocation_.emplace(film.resolution(), ray_parameters_);
-    if (pass < pilots) return render_pilot(static_cast<int>(pass), film);
-    for (int pilot = 0; pilot < ray_parameters_.pilot_passes; ++pilot) {
-      if (allocation_->has_pass(pilot)) continue;
-      Film unused(film.resolution(), {});  // this run has not begun at its first pass
-      render_pilot(pilot, unused);
-    }
-    if (!allocation_->closed()) allocation_->close();
-    render_tiles(
-        pass, film, SeedPurpose::adapted_camera, [&](Pixel pixel) { return allocation_->rays(pixel); }, [](auto...) {});
-  }
-
-  void render_pilot(int pass, Film& film) {
-    render_tiles(
-        static_cast<std::uint32_t>(pass), film, SeedPurpose::camera, [](Pixel) { return 1.0f; },
-        [&](Pixel pixel, float total, float brought) { allocation_->add(pass, pixel, total, brought); });
-    allocation_->finish_pass(pass);
-  }
-
-  /// Tiles lie at an offset drawn anew for each pass, so that their borders move. `mean_rays`(pixel): of a gather;
-  /// `note`(pixel, luminance of the sample, luminance that the rays brought).
-  template <class MeanRays, class Note>
-  void render_tiles(std::uint32_t pass, Film& film, SeedPurpose camera, const MeanRays& mean_rays, const Note& note) {
+  /// Tiles lie at an offset drawn anew for each pass, so that their borders move.
+  void render_tiles(std::uint32_t pass, const EffortPlan& plan, Film& film) {
     const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
     const LightTree& tree = source_.vpls_of(slot);
     const std::uint64_t seed = derive_seed(settings_.seed, SeedPurpose::tiles, slot.half);
@@ -165,7 +137,7 @@ class StochasticLightcuts final : public Integrator {
         for (std::size_t i = 0; i < size.pixels(); ++i) {
           const Pixel pixel = first + size.pixel(i);
           auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot,
-                                                       film.resolution().index(pixel), camera);
+                                                       film.resolution().index(pixel), plan.camera);
           if (logged.any()) context.log = logged.begin(pixel, logs[i]);
           const auto& prefix = pixels.emplace_back(context, trace_camera_prefix(context, position)).prefix;
           if (prefix.gather) receivers.push_back(make_receiver({*prefix.gather, context.lobes}));
@@ -176,15 +148,19 @@ class StochasticLightcuts final : public Integrator {
           auto& [context, prefix] = pixels[i];
           const Pixel pixel = first + size.pixel(i);
           PartValues radiance = prefix.radiance;
-          float brought = 0;
+          EffortAllocation::Sample seen;
           if (prefix.gather) {
-            brought = gather_without_vpls(context, prefix, gather_, radiance, mean_rays(pixel), behind);
+            const GatherEffort effort = plan.effort(pixel);
+            seen = gather_without_vpls(context, prefix, gather_, radiance, effort, behind);
             const double u = context.random.get1_double(Use::candidate_choice);
-            gatherer.gather(context, *prefix.gather, u).collect(prefix.throughput, radiance);
+            const auto [light, draw_variance] = gatherer.gather(context, *prefix.gather, effort.draws, u);
+            light.collect(prefix.throughput, radiance);
+            seen.draw_variance = draw_variance * luminance(prefix.throughput) * luminance(prefix.throughput);
           }
+          seen.total = luminance(radiance.total());
+          plan.note(pixel, seen);
           if (context.log) context.log->add_selection(0, node_share);
           record(half, pixel, radiance, context);
-          note(pixel, luminance(radiance.total()), brought);
           rays += context.rays;
         }
       }
@@ -201,9 +177,8 @@ class StochasticLightcuts final : public Integrator {
   Gather gather_kind_ = Gather::descent;
   CutLimits cut_limits_{.size = 10};
   TileParameters tile_;
-  RayAllocationParameters ray_parameters_;
+  AdaptedEffort effort_;
   bool gather_vertices_ = true;
-  std::optional<RayAllocation> allocation_;
   VplSource source_{VplSource::Structure::tree};
   const Scene* scene_ = nullptr;
   RenderSettings settings_;

@@ -4,6 +4,29 @@
 #include <array>
 
 namespace gradslc {
+namespace {
+
+/// The variance of a sum of systematic draws, from their successive differences.
+class DrawScatter {
+ public:
+  /// `count` draws in succession, each of which has brought `value`.
+  void add(float value, std::uint32_t count) {
+    if (draws_ > 0) squares_ += (value - last_) * (value - last_);
+    last_ = value, draws_ += count;
+  }
+  /// Variance that a sum of `samples` draws would have if it were made by one; 0 where nothing can be told.
+  float variance_of_one(int samples) const {
+    if (draws_ < 2) return 0;
+    const auto draws = static_cast<float>(draws_);
+    return static_cast<float>(samples) * draws * squares_ / (2 * (draws - 1));
+  }
+
+ private:
+  float last_ = 0, squares_ = 0;
+  std::uint32_t draws_ = 0;
+};
+
+}  // namespace
 
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
@@ -32,36 +55,46 @@ void TileGatherer::calibrate(std::span<const Receiver> receivers) {
   candidates_.calibrate(vpls_, lobes_, points);
 }
 
-VplLight TileGatherer::gather(PathContext& context, const PathVertex& x, double u) {
+TileLight TileGatherer::gather(PathContext& context, const PathVertex& x, int draws, double u) {
   if (parameters_.learn_visibility && gathers_++ % k_gathers_between_lessons == 0) candidates_.learn_visibility();
-  return sum_draws(context, x, vertices_that_may_count(context, x, context.settings.max_depth), nullptr,
-                   context.settings.max_depth, parameters_.samples, u);
+  const int max_edges = context.settings.max_depth;
+  const VertexRange range = vertices_that_may_count(context, x, max_edges);
+  const CandidateReceiver receiver = make_candidate_receiver({x, context.lobes}, range.least, range.most);
+  candidates_.evaluate(receiver, bound_);
+  cost_.evaluations += candidates_.size();
+  return sum_draws(context, x, receiver, nullptr, max_edges, draws, u);
 }
 
 Rgb TileGatherer::gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over,
                                 int max_edges) {
   VertexRange range = vertices_that_may_count(context, y, max_edges);
   range.least = std::max(range.least, 1);  // emitters are left to next-event estimation
-  const double u = context.random.get1_double(Use::candidate_choice, static_cast<std::uint32_t>(y.edges));
-  return sum_draws(context, y, range, &left_over, max_edges, 1, u).vpl;
+  const auto index = static_cast<std::uint32_t>(y.edges);
+  const CandidateSubset subset = candidates_.random_subset(context.random.get1(Use::candidate_subset, index));
+  const CandidateReceiver receiver = make_candidate_receiver({y, context.lobes}, range.least, range.most);
+  candidates_.evaluate(receiver, bound_, subset);
+  cost_.evaluations += candidates_.size() / subset.stride;
+  const double u = context.random.get1_double(Use::candidate_choice, index);
+  return sum_draws(context, y, receiver, &left_over, max_edges, 1, u).light.vpl;
 }
 
-VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, VertexRange range,
-                                 const Compensation* left_over, int max_edges, int samples, double u) {
+TileLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, const CandidateReceiver& receiver,
+                                  const Compensation* left_over, int max_edges, int samples, double u) {
   const GatherPoint point{x, context.lobes};
-  const CandidateReceiver receiver = make_candidate_receiver(point, range.least, range.most);
-  candidates_.evaluate(receiver, bound_);
-  cost_.evaluations += candidates_.size();
   candidates_.choose(samples, u, choice_);
   if (context.log) context.log->add_selection(static_cast<float>(choice_.size()), 0);
   VplLight light;
+  DrawScatter scatter;
   for (const CandidateDraw& draw : choice_) {
     const Vpl& vpl = vpls_[candidates_.vpl(draw.candidate)];
     const Rgb contribution =
         receiver.lambert && vpl.is_lambert()
             ? candidates_.contribution(receiver, draw.candidate)
             : candidates_.weight(draw.candidate) * unshadowed_contribution(point, vpls_, vpl, bound_);
-    if (is_black(contribution)) continue;
+    if (is_black(contribution)) {
+      scatter.add(0, draw.count);
+      continue;
+    }
     const Ray segment = connection_segment(point, vpl, candidates_.geometric_normal(draw.candidate));
     const Rgb transmittance = connect(context, segment, connection_edges(x, vpl), max_edges).transmittance;
     auto drawn = static_cast<float>(draw.count / (samples * draw.probability));
@@ -76,10 +109,11 @@ VplLight TileGatherer::sum_draws(PathContext& context, const PathVertex& x, Vert
     }
     if (!left_over && parameters_.learn_visibility)
       candidates_.note_visibility(draw.candidate, !is_black(transmittance));
-    if (is_black(transmittance)) continue;
-    light.from(vpl) += contribution * transmittance * drawn;
+    const Rgb brought = contribution * transmittance * drawn;
+    light.from(vpl) += brought;
+    scatter.add(luminance(brought) / static_cast<float>(draw.count), draw.count);
   }
-  return light;
+  return {light, scatter.variance_of_one(samples)};
 }
 
 }  // namespace gradslc

@@ -27,9 +27,17 @@ inline void describe(ParameterVisitor& v, TileParameters& p) {
             "candidates that a tile's earlier pixels could not see are drawn less often by the later ones");
 }
 
+/// Light from VPLs at a pixel of a tile, and how far it scatters.
+struct TileLight {
+  VplLight light;
+  /// Of `light`'s luminance over choices among the candidates, for a single draw: estimated from how unlike successive
+  /// draws are, which systematic sampling makes neighbours in the tree's order (Wolter 1984, estimator v2).
+  float draw_variance = 0;
+};
+
 /// What gathering by tiles has cost.
 struct TileCost {
-  std::uint64_t nodes = 0, candidates = 0, evaluations = 0;
+  std::uint64_t nodes = 0, candidates = 0, evaluations = 0;  ///< evaluations of candidates
   TileCost& operator+=(const TileCost& o) {
     nodes += o.nodes, candidates += o.candidates, evaluations += o.evaluations;
     return *this;
@@ -52,8 +60,8 @@ class TileGatherer {
 
   /// Draws the candidates for all gather points of a tile, `u` in [0,1).
   void begin_tile(std::span<const Receiver> receivers, double u);
-  /// Light from VPLs at x, which must be one of the tile's; `u` in [0,1).
-  VplLight gather(PathContext& context, const PathVertex& x, double u);
+  /// Light from VPLs at x, which must be one of the tile's, by `draws` >= 1 of them; `u` in [0,1).
+  TileLight gather(PathContext& context, const PathVertex& x, int draws, double u);
   /// A VertexGather, of one draw, at a vertex behind a ray sent from one of the tile's gather points.
   Rgb gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges);
   const TileCost& cost() const { return cost_; }
@@ -62,8 +70,9 @@ class TileGatherer {
 
  private:
   void calibrate(std::span<const Receiver> receivers);
-  VplLight sum_draws(PathContext& context, const PathVertex& x, VertexRange range, const Compensation* left_over,
-                     int max_edges, int samples, double u);
+  /// Over the candidates that were evaluated last.
+  TileLight sum_draws(PathContext& context, const PathVertex& x, const CandidateReceiver& receiver,
+                      const Compensation* left_over, int max_edges, int samples, double u);
 
   VplView vpls_;
   const LightTree& tree_;

@@ -20,7 +20,7 @@ void CandidateSet::assign(const VplSet& set, std::span<const Candidate> candidat
   groups_.assign(groups, Group{});
   vertices_.assign(groups, 0);
   tests_.assign(groups, 0), hits_.assign(groups, 0), visibility_.assign(groups, 1);
-  geometry_.resize(groups), summed_.resize(groups);
+  geometry_.resize(groups);
   least_vertex_ = k_infinity, most_vertex_ = 0;
   simple_ = true;
   for (std::size_t i = 0; i < count; ++i) {
@@ -86,7 +86,15 @@ void CandidateSet::calibrate(const VplView& vpls, const LobeSelection& lobes, st
   }
 }
 
-void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
+CandidateSubset CandidateSet::random_subset(float u) const {
+  constexpr std::uint32_t k_stride = 4;
+  const auto stride = std::min(k_stride, std::max<std::uint32_t>(static_cast<std::uint32_t>(groups_.size()), 1));
+  return {std::min(static_cast<std::uint32_t>(u * static_cast<float>(stride)), stride - 1), stride};
+}
+
+void CandidateSet::evaluate(const CandidateReceiver& r, float bound, CandidateSubset subset) {
+  summed_.subset = subset;
+  summed_.sums.resize((groups_.size() + subset.stride - 1 - subset.first) / subset.stride);
   const bool all_count = static_cast<float>(r.least_k) <= least_vertex_ && most_vertex_ <= static_cast<float>(r.most_k);
   if (simple_ && r.lambert && all_count)
     evaluate_lambert(r, bound);
@@ -100,7 +108,8 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
   const FloatV diffuse[3] = {r.diffuse.r, r.diffuse.g, r.diffuse.b};
   const FloatV cap = bound / max_channel(r.diffuse), zero = 0;
   FloatV sum = 0;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  auto summed = summed_.sums.begin();
+  for (std::size_t i = summed_.subset.first; i < groups_.size(); i += summed_.subset.stride) {
     const Group& g = groups_[i];
     const FloatV d[3] = {g.position[0] - x[0], g.position[1] - x[1], g.position[2] - x[2]};
     const FloatV distance2 = lane_dot(d, d);
@@ -111,7 +120,7 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
     geometry_[i] = geometry;
     const FloatV flux = stdx::max(stdx::max(diffuse[0] * g.flux[0], diffuse[1] * g.flux[1]), diffuse[2] * g.flux[2]);
     sum += visibility_[i] * geometry * flux;
-    summed_[i] = sum;
+    *summed++ = sum;
   }
 }
 
@@ -122,7 +131,8 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
   const FloatV image[3] = {x.mirrored.x, x.mirrored.y, x.mirrored.z};
   const FloatV zero = 0;
   FloatV sum = 0;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  auto summed = summed_.sums.begin();
+  for (std::size_t i = summed_.subset.first; i < groups_.size(); i += summed_.subset.stride) {
     const Group& g = groups_[i];
     const FloatV d[3] = {g.position[0] - position[0], g.position[1] - position[1], g.position[2] - position[2]};
     const FloatV distance2 = lane_dot(d, d), per_distance2 = 1 / distance2;
@@ -155,7 +165,7 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound) {
     stdx::where(geometry <= zero || flux <= zero, target) = 0;
     geometry_[i] = geometry;
     sum += target;
-    summed_[i] = sum;
+    *summed++ = sum;
   }
 }
 
@@ -181,33 +191,29 @@ void CandidateSet::learn_visibility() {
   }
 }
 
-float CandidateSet::target(Place place) const {
-  const auto [group, lane] = place;
-  return summed_[group][lane] - (group > 0 ? summed_[group - 1][lane] : 0);
-}
-
 void CandidateSet::choose(int samples, double u, std::vector<CandidateDraw>& draws) const {
   draws.clear();
-  if (summed_.empty()) return;
+  const auto& [subset, sums] = summed_;
+  if (sums.empty()) return;
   std::array<double, k_lanes> end_of_lane;
   double total = 0;
   for (std::size_t lane = 0; lane < k_lanes; ++lane)
-    end_of_lane[lane] = total += static_cast<double>(summed_.back()[lane]);
+    end_of_lane[lane] = total += static_cast<double>(sums.back()[lane]);
   if (!(total > 0)) return;
   std::uint32_t lane = 0;
   for (int s = 0; s < samples; ++s) {
     const double position = (s + u) / samples * total;
     while (lane + 1 < k_lanes && position >= end_of_lane[lane]) ++lane;
     const auto within = static_cast<float>(position - (lane > 0 ? end_of_lane[lane - 1] : 0));
-    // The first group whose sum exceeds the position within the lane, by halving without branches.
-    std::uint32_t group = 0;
-    for (std::uint32_t left = static_cast<std::uint32_t>(summed_.size()) - 1; left > 0;) {
+    // The first vector whose sum exceeds the position within the lane, by halving without branches.
+    std::uint32_t index = 0;
+    for (std::uint32_t left = static_cast<std::uint32_t>(sums.size()) - 1; left > 0;) {
       const std::uint32_t half = (left + 1) / 2;
-      group += summed_[group + half - 1][lane] > within ? 0 : half;
+      index += sums[index + half - 1][lane] > within ? 0 : half;
       left -= half;
     }
-    const std::uint32_t candidate = lane * static_cast<std::uint32_t>(summed_.size()) + group;
-    const double probability = static_cast<double>(target(Place{group, lane})) / total;
+    const std::uint32_t candidate = lane * static_cast<std::uint32_t>(groups_.size()) + summed_.group(index);
+    const double probability = static_cast<double>(summed_.target(index, lane)) / (total * subset.stride);
     if (!(probability > 0)) continue;  // rounding at a lane's end
     if (!draws.empty() && draws.back().candidate == candidate)
       ++draws.back().count;

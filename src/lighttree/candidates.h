@@ -28,6 +28,12 @@ struct CandidateDraw {
   double probability;   ///< of one draw; the expected count is the number of draws times this
 };
 
+/// Every `stride`-th vector of candidates from `first`: what a choice looks at. Vectors of one subset are spread over
+/// the tree's order, so that each subset stands for the whole set.
+struct CandidateSubset {
+  std::uint32_t first = 0, stride = 1;
+};
+
 /// A tile's candidates side by side, and a pixel's choice among them (DESIGN 5, step 2): a draw's probability is
 /// proportional to the largest channel of the candidate's unshadowed, bounded contribution over its own probability:
 /// exactly where both lobes are Lambert's, else nearly so (the bounds of the lobes stand for them), and to what is
@@ -49,10 +55,14 @@ class CandidateSet {
   /// What earlier receivers have met is independent of a later one's draws: these stay unbiased.
   void learn_visibility();
 
-  /// Finds the target of every candidate; choose() draws in proportion.
-  void evaluate(const CandidateReceiver& receiver, float bound);
+  /// One of the few subsets that the candidates fall into, each with the same probability; `u` in [0,1).
+  CandidateSubset random_subset(float u) const;
+  /// Finds the target of every candidate of a subset, which if it is not the whole must come from random_subset();
+  /// choose() draws in proportion.
+  void evaluate(const CandidateReceiver& receiver, float bound, CandidateSubset subset = {});
   /// Systematic resampling of `samples` draws with `u` in [0,1), in the order in which the candidates were assigned:
-  /// draws are stratified over what is near together there. Empty if no candidate contributes.
+  /// draws are stratified over what is near together there. Probabilities are those of the subset's being chosen times
+  /// the draw's among its candidates. Empty if no candidate contributes.
   void choose(int samples, double u, std::vector<CandidateDraw>& draws) const;
 
   std::uint32_t vpl(std::uint32_t candidate) const { return vpls_[candidate]; }
@@ -61,8 +71,11 @@ class CandidateSet {
   float weight(std::uint32_t candidate) const { return weights_[candidate]; }
   /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() has found it.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const;
-  /// As evaluate() has found it, in the unit of the largest channel of pi^2 contribution().
-  float target(std::uint32_t candidate) const { return target(place_of(candidate)); }
+  /// As evaluate() has found it, in the unit of the largest channel of pi^2 contribution(). Of the subset only.
+  float target(std::uint32_t candidate) const {
+    const auto [group, lane] = place_of(candidate);
+    return summed_.target((group - summed_.subset.first) / summed_.subset.stride, lane);
+  }
 
  private:
   static constexpr std::size_t k_lanes = FloatV::size();
@@ -86,7 +99,6 @@ class CandidateSet {
     const auto groups = static_cast<std::uint32_t>(groups_.size());
     return {candidate % groups, candidate / groups};
   }
-  float target(Place place) const;
   void put(const VplSet& set, std::size_t index);
   void evaluate_lambert(const CandidateReceiver& receiver, float bound);
   void evaluate_any(const CandidateReceiver& receiver, float bound);
@@ -99,8 +111,19 @@ class CandidateSet {
   std::vector<FloatV> tests_, hits_, visibility_;
   bool simple_ = true;  ///< Lambert VPLs whose two normals are one
   float least_vertex_ = 0, most_vertex_ = 0;
-  // Results of evaluate(): cosines over squared distance, bounded; targets summed up lane by lane.
-  std::vector<FloatV> geometry_, summed_;
+  /// Targets of a subset's vectors, summed up lane by lane.
+  struct SummedTargets {
+    CandidateSubset subset;
+    std::vector<FloatV> sums;
+
+    std::uint32_t group(std::uint32_t index) const { return subset.first + index * subset.stride; }
+    float target(std::uint32_t index, std::uint32_t lane) const {
+      return sums[index][lane] - (index > 0 ? sums[index - 1][lane] : 0);
+    }
+  };
+  // Results of evaluate(): cosines over squared distance, bounded; targets.
+  std::vector<FloatV> geometry_;
+  SummedTargets summed_;
 };
 
 }  // namespace gradslc

@@ -278,7 +278,7 @@ TEST_F(Commands, DryRunPrintsThePlanAndRendersNothing) {
 TEST_F(Commands, AnyNumberOfThreadsGivesTheSameBits) {
   for (const char* method : {"spt", R"({"integrator": "vpl", "vpl": {"light_paths": 40}})",
                              R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
-                             R"({"integrator": "slc", "gather": "tile", "compensation": {"pilot_passes": 2}})",
+                             R"({"integrator": "slc", "gather": "tile", "effort": {"pilot_passes": 2}})",
                              R"({"integrator": "gradslc", "shift": "reconnection", "reconstruction": "weighted"})",
                              R"({"integrator": "gradslc", "shift": "random_replay", "reconstruction": "l2"})"}) {
     std::vector<std::string> images;

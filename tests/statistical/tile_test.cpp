@@ -94,7 +94,7 @@ Method tile_method(double defensive, double cosine_floor, double size) {
            {"tile/samples", 16.0},
            {"tile/defensive", defensive},
            {"tile/cosine_floor", cosine_floor},
-           {"compensation/pilot_passes", 0.0},
+           {"effort/pilot_passes", 0.0},
            {"vpl/bound", 100.0},
            {"vpl/light_paths", 100.0}}};
 }

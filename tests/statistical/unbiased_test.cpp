@@ -97,9 +97,10 @@ TEST(Unbiased, IndependentSampler) {
                   {lightcut_methods()[1], lightcut_methods()[5]});
 }
 
-// Passes after the pilots send fewer rays than one where they bring little and more where they bring much: most passes
-// of a run are such here, and a small bound leaves much for the rays. The first method has cells with means below 0.6
-// and others above 1.7; the second's are all 0.3, rounded to 0 or 1 at random, the third's 2.5, rounded to 2 or 3.
+// Passes after the pilots send fewer rays than one where they bring little and more where they bring much, and so for
+// draws and next-event estimates: most passes of a run are such here, and a small bound leaves much for the rays. The
+// first method has cells with means below 0.6 and others above 1.7; the second's are all 0.3, rounded to 0 or 1 at
+// random, the third's 2.5, rounded to 2 or 3.
 const std::vector<Method>& adapted_methods() {
   const auto tile = [](const std::string& label, double pass_cost, double fewest, double most) {
     return Method{label,
@@ -108,10 +109,10 @@ const std::vector<Method>& adapted_methods() {
                    {"tile/candidates", 64.0},
                    {"vpl/light_paths", 300.0},
                    {"vpl/bound", 0.3},
-                   {"compensation/pilot_passes", 2.0},
-                   {"compensation/pass_cost", pass_cost},
-                   {"compensation/fewest", fewest},
-                   {"compensation/most", most}}};
+                   {"effort/pilot_passes", 2.0},
+                   {"effort/pass_cost", pass_cost},
+                   {"effort/fewest_rays", fewest},
+                   {"effort/most_rays", most}}};
   };
   static const std::vector<Method> k_methods = {tile("slc tile, adapted rays", 1, 0.1, 8),
                                                 tile("slc tile, fewer rays", 1e-3, 0.3, 1),

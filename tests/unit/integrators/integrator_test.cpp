@@ -54,8 +54,8 @@ const std::vector<Method>& every_method() {
        {{"gather", "tile"},
         {"vpl/light_paths", 300.0},
         {"vpl/kappa", 40.0},
-        {"compensation/pilot_passes", 2.0},
-        {"compensation/fewest", 0.1}}},
+        {"effort/pilot_passes", 2.0},
+        {"effort/fewest_rays", 0.1}}},
       {"slc tile, other builder", "slc", {{"gather", "tile"}, {"vpl/light_paths", 300.0}, {"builder", "saoh"}}},
       {"slc, sets of 2", "slc", {{"vpl/light_paths", 300.0}, {"vpl/passes_per_set", 2.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 300.0}}},
@@ -122,9 +122,11 @@ TEST(Integrators, AdaptedPassesAreIndependentOfTheirPilots) {
                         "slc",
                         {{"gather", "tile"},
                          {"vpl/light_paths", 50.0},
-                         {"compensation/pilot_passes", pilots},
-                         {"compensation/fewest", 1.0},
-                         {"compensation/most", 1.0}}};
+                         {"effort/pilot_passes", pilots},
+                         {"effort/fewest_rays", 1.0},
+                         {"effort/most_rays", 1.0},
+                         {"effort/most_emitter_samples", 1.0},
+                         {"effort/adapt_draws", false}}};
     const auto integrator = method.make();
     integrator->prepare(scene, {.max_depth = 4});
     return render_pass(*integrator, scene, 4);

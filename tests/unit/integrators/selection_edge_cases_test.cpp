@@ -171,10 +171,10 @@ TEST(OddVplSets, SampledSelectionIsFiniteAndRightOnAverage) {
       const auto chosen = shared.select(receivers, path.random);
       gatherer.begin_tile(receivers, path.random.get1_double(Use::tile_comb));
       by_one.begin_tile(receivers, path.random.get1_double(Use::tile_comb));
-      add(by_one_candidate, by_one.gather(path, c.points[0], path.random.get1_double(Use::candidate_choice)));
+      add(by_one_candidate, by_one.gather(path, c.points[0], 1, path.random.get1_double(Use::candidate_choice)).light);
       for (std::size_t i = 0; i < k_points; ++i) {
         add(by_shared_law[i], gather_chosen(path, c.points[i], c.tree, chosen, c.bound));
-        add(by_tile[i], gatherer.gather(path, c.points[i], path.random.get1_double(Use::candidate_choice)));
+        add(by_tile[i], gatherer.gather(path, c.points[i], 3, path.random.get1_double(Use::candidate_choice)).light);
       }
     }
     if (c.bound == k_infinity) return;
@@ -195,7 +195,7 @@ TEST(OddVplSets, ATileWithoutReceiversHasNoCandidates) {
     gatherer.begin_tile(c.receivers(), 0.5);
     gatherer.begin_tile({}, 0.5);  // forgets the tile before
     PathContext path = context(c.scene, 0);
-    EXPECT_EQ(gatherer.gather(path, c.points[0], 0.5).total(), Rgb());
+    EXPECT_EQ(gatherer.gather(path, c.points[0], 3, 0.5).light.total(), Rgb());
   });
 }
 

@@ -275,6 +275,37 @@ TEST(Candidates, GlossyOnesAreCalibratedByTheirValues) {
   EXPECT_GT(compared, 100u);
 }
 
+// Over the random subsets a draw's light has the mean that all candidates have: the sum of their targets.
+TEST(Candidates, SubsetsStandForTheWholeSet) {
+  TestRandom random(9);
+  CandidateSet candidates;
+  std::vector<CandidateDraw> draws;
+  for (int round = 0; round < 60; ++round) {
+    const LightTree tree = pairs(random_vpls(random, 1 + random.below(100), 1, round % 2 == 0));
+    const ShadedPoint x = random_gather_point(random, 1.2f, round % 2 == 0);
+    candidates.assign(tree.set, every_vpl(random, tree.set), 10);
+    const CandidateReceiver receiver = make_candidate_receiver({x, LobeSelection()}, 1, 5);
+    candidates.evaluate(receiver, 1);
+    double total = 0;
+    std::vector<double> targets;
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+      targets.push_back(static_cast<double>(candidates.target(i)));
+      total += targets.back();
+    }
+    // A place u of the comb and a subset are each as likely as any other.
+    constexpr int k_subsets = 60;  // a multiple of any number of them
+    double mean = 0;
+    for (int s = 0; s < k_subsets; ++s) {
+      candidates.evaluate(receiver, 1, candidates.random_subset((static_cast<float>(s) + 0.5f) / k_subsets));
+      for (int i = 0; i < 50; ++i) {
+        candidates.choose(1, (i + 0.5) / 50, draws);
+        for (const CandidateDraw& draw : draws) mean += targets[draw.candidate] / draw.probability / (50 * k_subsets);
+      }
+    }
+    EXPECT_NEAR(mean, total, 1e-3 * total) << round;
+  }
+}
+
 TEST(Candidates, DrawsAreWhatTheProbabilitiesSay) {
   TestRandom random(6);
   CandidateSet candidates;
