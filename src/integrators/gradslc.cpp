@@ -1,7 +1,9 @@
 #include <mutex>
 
 #include "core/parallel.h"
-#include "integrators/cut_gather.h"
+#include "integrators/gradient_record.h"
+#include "integrators/group_gather.h"
+#include "integrators/prefix_region.h"
 #include "integrators/record.h"
 #include "integrators/registry.h"
 #include "integrators/vpl_source.h"
@@ -12,14 +14,15 @@
 namespace gradslc {
 namespace {
 
-enum class Gather : std::uint8_t { descent };
+enum class Gather : std::uint8_t { descent, tile };
 
 /// What a pass has cost, base and offset pixels apart.
 struct GradientCost {
   SelectionCost selection;
+  TileCost tile;
   std::uint64_t prefix_rays = 0, base_rays = 0, offset_rays = 0;
   GradientCost& operator+=(const GradientCost& o) {
-    selection += o.selection;
+    selection += o.selection, tile += o.tile;
     prefix_rays += o.prefix_rays, base_rays += o.base_rays, offset_rays += o.offset_rays;
     return *this;
   }
@@ -33,32 +36,44 @@ class GradientStochasticLightcuts final : public Integrator {
   void describe(ParameterVisitor& v) override {
     v.choice("shift", shift_, shift_names(), "how neighbours' samples are made alike");
     v.choice("stencil", stencil_, {"forward", "symmetric"}, "reconnection: neighbours of a base pixel");
-    v.group("block", "random_replay: pixels that share random numbers", [&] {
+    v.group("block", "pixels that share random numbers: block, and random_replay by descent", [&] {
       v.integer("width", block_.width, {1, 1024}, "pixels", "columns of a block");
       v.integer("height", block_.height, {1, 1024}, "pixels", "rows of a block");
     });
-    v.choice("gather", gather_kind_, {"descent"},
-             "how VPLs are selected: per pixel by descent from a cut (as published)");
-    v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "nodes of the cut, and so shadow rays of a gather");
+    v.choice("gather", gather_kind_, {"descent", "tile"},
+             "how VPLs are selected: by descent from a cut (as published), or among a tile's candidates");
+    v.integer("cut_size", cut_size_, {1, 100000}, "nodes",
+              "descent: nodes of the cut, and so shadow rays of a gather");
+    v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
+    v.group("effort", "tile: how many samples of each kind a gather takes", [&] { effort_.describe(v); });
+    v.boolean("gather_vertices", gather_vertices_,
+              "tile: vertices behind the rays that bring what bounding takes gather from the tile's candidates; false: "
+              "paths go on from there");
     source_.describe(v);
   }
 
   void prepare(const Scene& scene, const RenderSettings& settings) override {
     scene_ = &scene, settings_ = settings;
+    effort_.reset();
     source_.prepare(scene, settings);
-    gather_ = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth);
+    groups_ = {.gather = make_gather_settings(scene, source_.parameters(), source_.bound(), settings.max_depth),
+               .lobes = source_.parameters().lobes(),
+               .cut = {.size = cut_size_}};
+    if (gather_kind_ == Gather::descent) return;
+    groups_.tile = tile_;
+    // Visibility is learned from draws that are independent of later ones': not where a tile repeats its own.
+    if (shift_ == Shift::random_replay) groups_.tile->learn_visibility = false;
+    if (gather_vertices_) groups_.reach = reach_of_vertices(scene, groups_.gather, settings.max_depth);
   }
 
   void render_pass(std::uint32_t pass, Film& film) override {
-    const PassSlot slot = pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
-    const LoggedSamples logged = logged_samples(slot, film);
-    const LightTree& tree = source_.vpls_of(slot);
-    FilmHalf& half = film.half(slot.half);
-    trace_prefixes(slot, film.resolution(), logged);
-    if (shift_ == Shift::reconnection)
-      render_stencils(slot, tree, logged, half);
+    if (gather_kind_ == Gather::descent)
+      render_tiles(pass, {}, film);
     else
-      render_blocks(slot, tree, logged, half);
+      effort_.render_pass(pass, film, tile_.samples, [this](std::uint32_t number, const EffortPlan& plan, Film& target) {
+        render_tiles(number, plan, target);
+      });
+    const PassSlot slot = slot_of(pass);
     if (slot.closes_set) film.close_set(slot.half);
   }
 
@@ -78,8 +93,13 @@ class GradientStochasticLightcuts final : public Integrator {
     const auto count = [&](const char* name, std::uint64_t value) {
       statistics.counters.push_back({name, static_cast<double>(value)});
     };
-    count("node_evaluations", cost_.selection.node_evaluations);
-    count("selections", cost_.selection.selections);
+    count("node_evaluations", cost_.selection.node_evaluations + cost_.tile.nodes);
+    if (gather_kind_ == Gather::descent) {
+      count("selections", cost_.selection.selections);
+    } else {
+      count("candidates", cost_.tile.candidates);
+      count("candidate_evaluations", cost_.tile.evaluations);
+    }
     count("prefix_rays", cost_.prefix_rays);
     count("base_rays", cost_.base_rays);
     count("offset_rays", cost_.offset_rays);
@@ -87,181 +107,160 @@ class GradientStochasticLightcuts final : public Integrator {
   }
 
  private:
-  // Streams of random numbers within a half: one for the whole image, one per group.
+  using Block = BlockPartition::Block;
+
+  /// What a thread needs for its tiles.
+  struct Worker {
+    GroupGatherer gatherer;
+    PrefixRegion region;
+    std::vector<Receiver> receivers;
+    std::vector<GroupSample> samples;
+    std::vector<PathLog> logs;
+    GradientCost cost;
+  };
+  /// What all tiles of a pass share.
+  struct PassView {
+    const PassSlot& slot;
+    const EffortPlan& plan;
+    const LoggedSamples& logged;
+    const BlockPartition& tiles;
+    FilmHalf& half;
+    bool gradients;
+  };
+
+  PassSlot slot_of(std::uint32_t pass) const {
+    return pass_slot(pass, static_cast<std::uint32_t>(source_.parameters().passes_per_set));
+  }
+  // Streams of random numbers within a half: one for the whole image, one for each group, named by a pixel of its own.
   static constexpr std::uint64_t k_image_stream = std::uint64_t{1} << 62;
-
-  SampleStream stream(const PassSlot& slot, std::uint64_t id) const {
-    return {settings_.sampler, derive_seed(settings_.seed, SeedPurpose::camera, slot.half), id, slot.sample};
+  SampleStream stream(const PassSlot& slot, SeedPurpose purpose, std::uint64_t id) const {
+    return {settings_.sampler, derive_seed(settings_.seed, purpose, slot.half), id, slot.sample};
   }
-  PathContext context(const SampleStream& random) const {
-    return {*scene_, settings_, source_.parameters().lobes(), random};
+  PathContext context(const SampleStream& random) const { return {*scene_, settings_, groups_.lobes, random}; }
+  std::uint64_t index(Pixel pixel) const { return scene_->camera().resolution().index(pixel); }
+
+  /// Groups lie within tiles, whose borders move from pass to pass.
+  Resolution tile_size() const {
+    if (shift_ == Shift::reconnection || (shift_ == Shift::random_replay && groups_.tile)) return {tile_.size, tile_.size};
+    const auto whole_blocks = [&](int side) { return (tile_.size + side - 1) / side * side; };
+    return {whole_blocks(block_.width), whole_blocks(block_.height)};
   }
 
-  void trace_prefixes(const PassSlot& slot, Resolution resolution, const LoggedSamples& logged) {
-    prefixes_ = Image<CameraPrefix>(resolution);
-    if (logged.any()) prefix_logs_ = Image<PathLog>(resolution);
-    const SampleStream random = stream(slot, k_image_stream);
-    const Vec2 jitter = random.get2(Use::pixel);
-    cost_.prefix_rays += parallel_sum<std::uint64_t>(resolution.pixels(), 256, [&](std::size_t begin, std::size_t end) {
-      std::uint64_t rays = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Pixel pixel = resolution.pixel(i);
-        PathContext path = context(random);
-        if (logged.any()) path.log = logged.begin_part(pixel, prefix_logs_[i]);
-        prefixes_[i] = trace_camera_prefix(path, film_position(pixel, jitter));
-        if (path.log) path.log->add_rays(path.rays);
-        rays += path.rays;
-      }
-      return rays;
+  void render_tiles(std::uint32_t pass, const EffortPlan& plan, Film& film) {
+    const PassSlot slot = slot_of(pass);
+    const LightTree& tree = source_.vpls_of(slot);
+    const LoggedSamples logged = logged_samples(slot, film);
+    const SampleStream image_stream = stream(slot, plan.camera, k_image_stream);
+    const BlockPartition tiles(film.resolution(), tile_size(), image_stream.get2(Use::group_offset));
+    const PassView view{slot, plan, logged, tiles, film.half(slot.half), film.layers().gradients};
+    if (shift_ == Shift::reconnection) stencils_.begin(film.resolution(), stencil_, logged.any());
+    std::mutex cost_mutex;
+    constexpr std::size_t k_tiles_per_chunk = 4;  // memory is kept from tile to tile
+    parallel_for(tiles.size(), k_tiles_per_chunk, [&](std::size_t begin, std::size_t end) {
+      Worker worker{.gatherer{*scene_, tree, groups_}, .region{}, .receivers{}, .samples{}, .logs{}, .cost{}};
+      for (std::size_t tile = begin; tile < end; ++tile) render_tile(view, tile, worker);
+      worker.cost.selection = worker.gatherer.cut_cost(), worker.cost.tile = worker.gatherer.tile_cost();
+      const std::lock_guard lock(cost_mutex);
+      cost_ += worker.cost;
     });
+    if (shift_ == Shift::reconnection) stencils_.record(logged, view.half, view.gradients);
   }
 
-  Receiver receiver(Pixel pixel) const {
-    return make_receiver({*prefixes_[pixel].gather, source_.parameters().lobes()});
+  void render_tile(const PassView& view, std::size_t number, Worker& worker) const {
+    const Block tile = view.tiles.block(number);
+    const Block region = shift_ == Shift::reconnection ? with_neighbours(tile) : tile;
+    if (view.logged.skips(region.first, region.size)) return;
+    const SampleStream image_stream = stream(view.slot, view.plan.camera, k_image_stream);
+    worker.region.trace(context(image_stream), image_stream.get2(Use::pixel), region.first, region.size, view.logged);
+    worker.cost.prefix_rays += worker.region.rays();
+    worker.receivers.clear();
+    for (const CameraPrefix& prefix : worker.region.prefixes())
+      if (prefix.gather) worker.receivers.push_back(make_receiver({*prefix.gather, groups_.lobes}));
+    worker.gatherer.begin_tile(worker.receivers,
+                               stream(view.slot, SeedPurpose::tiles, number).get1_double(Use::tile_comb));
+    if (shift_ == Shift::reconnection) return gather_stencils(view, tile, worker);
+    if (shift_ == Shift::random_replay && groups_.tile) return gather_group(view, tile, tile, worker);
+    view.tiles.for_each_within(tile, block_, [&](const Block& block) { gather_group(view, tile, block, worker); });
   }
 
-  /// The log of a pixel's sample, the camera's part of it told; null where none is wanted.
-  PathLog* begin_log(const LoggedSamples& logged, Pixel pixel, PathLog& memory) const {
-    PathLog* log = logged.begin(pixel, memory);
-    if (log) log->append(prefix_logs_[pixel], 1);
-    return log;
+  /// The tile and the offsets just outside it.
+  Block with_neighbours(const Block& tile) const {
+    const Resolution image = scene_->camera().resolution();
+    const int before = stencil_ == Stencil::symmetric ? 1 : 0;
+    const Pixel first{std::max(tile.first.x - before, 0), std::max(tile.first.y - before, 0)};
+    const Pixel end{std::min(tile.first.x + tile.size.width + 1, image.width),
+                    std::min(tile.first.y + tile.size.height + 1, image.height)};
+    return {first, {end.x - first.x, end.y - first.y}};
   }
 
-  /// One pixel's sample with the random numbers and VPLs of a group.
-  PartValues sample(const LightTree& tree, Pixel pixel, const SampleStream& random, std::span<const ChosenVpl> chosen,
-                    std::uint64_t& rays, PathLog* log) const {
-    const CameraPrefix& prefix = prefixes_[pixel];
-    PartValues radiance = prefix.radiance;
-    if (!prefix.gather) return radiance;
-    PathContext path = context(random);
-    path.log = log;
-    gather_without_vpls(path, prefix, gather_, radiance);
-    gather_chosen(path, *prefix.gather, tree, chosen, gather_.bound).collect(prefix.throughput, radiance);
-    if (log) log->add_rays(path.rays);
-    rays += path.rays;
-    return radiance;
+  GroupSample begin_sample(const Worker& worker, Pixel pixel, const SampleStream& random, PathLog* log) const {
+    const CameraPrefix& prefix = worker.region[pixel];
+    GroupSample sample{context(random), &prefix, prefix.radiance, {}};
+    sample.context.log = log;
+    return sample;
+  }
+  float node_share(const Worker& worker, const Block& tile) const {
+    return static_cast<float>(worker.gatherer.tile_nodes()) / static_cast<float>(tile.size.pixels());
   }
 
-  /// random_replay: every pixel of a block selects for itself with the block's random numbers; gradients inside blocks.
-  void render_blocks(const PassSlot& slot, const LightTree& tree, const LoggedSamples& logged, FilmHalf& half) {
-    const BlockPartition partition(prefixes_.resolution(), block_,
-                                   stream(slot, k_image_stream).get2(Use::group_offset));
-    run_groups(partition.size(), tree, [&](std::size_t group, CutSelector& selector, GradientCost& cost) {
-      const auto [first, size] = partition.block(group);
-      const SampleStream random = stream(slot, group);
-      Image<PartValues> samples(size);
-      PathLog memory;
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Pixel pixel = first + size.pixel(i);
-        PathLog* const log = begin_log(logged, pixel, memory);
-        std::span<const ChosenVpl> chosen;
-        if (prefixes_[pixel].gather) {
-          const Receiver alone = receiver(pixel);
-          chosen = selector.select({&alone, 1}, random);
-          log_selection(log, selector.last_cost());
-        }
-        samples[i] = sample(tree, pixel, random, chosen, cost.base_rays, log);
-        record(half, pixel, samples[i], log);
-      }
-      for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Pixel local = size.pixel(i), pixel = first + local;
-        const Pixel right{local.x + 1, local.y}, lower{local.x, local.y + 1};
-        if (size.contains(right)) half.dx.add(pixel, samples[right].total() - samples[i].total());
-        if (size.contains(lower)) half.dy.add(pixel, samples[lower].total() - samples[i].total());
-      }
-    });
+  /// block, random_replay: the pixels of a rectangle, with the same random numbers. Differences lie within it.
+  void gather_group(const PassView& view, const Block& tile, const Block& group, Worker& worker) const {
+    const auto [first, size] = group;
+    const SampleStream random = stream(view.slot, view.plan.camera, index(first));
+    const GatherEffort effort = view.plan.effort(first);
+    auto& [gatherer, region, receivers, samples, logs, cost] = worker;
+    samples.clear();
+    if (view.logged.any()) logs.resize(std::max(logs.size(), size.pixels()));
+    for (std::size_t i = 0; i < size.pixels(); ++i) {
+      const Pixel pixel = first + size.pixel(i);
+      PathLog* const log = view.logged.any() ? view.logged.begin(pixel, logs[i]) : nullptr;
+      if (log) log->append(region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
+      samples.push_back(begin_sample(worker, pixel, random, log));
+    }
+    if (shift_ == Shift::block)
+      gatherer.gather_together(samples, effort, random);
+    else
+      for (GroupSample& sample : samples) gatherer.gather_alone(sample, effort);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      GroupSample& sample = samples[i];
+      const Pixel pixel = first + size.pixel(i);
+      cost.base_rays += sample.context.rays;
+      note(view, pixel, sample);
+      record(view.half, pixel, sample.radiance, sample.context);
+    }
+    if (!view.gradients) return;
+    record_differences(group, view.half, [&](std::size_t i) { return samples[i].radiance.total(); });
+  }
+
+  void note(const PassView& view, Pixel pixel, GroupSample& sample) const {
+    sample.seen.total = luminance(sample.radiance.total());
+    view.plan.note(pixel, sample.seen);
   }
 
   /// reconnection: a group is a base pixel with its offsets; one choice of VPLs by the law shared over all of them.
-  /// Offsets' values are samples of their own pixels too.
-  void render_stencils(const PassSlot& slot, const LightTree& tree, const LoggedSamples& logged, FilmHalf& half) {
-    const Resolution resolution = prefixes_.resolution();
-    const auto offsets = stencil_offsets(stencil_);
-    stencil_values_.assign(resolution.pixels() * offsets.size(), PartValues());
-    if (logged.any()) stencil_logs_.assign(stencil_values_.size(), PathLog());
-    run_groups(resolution.pixels(), tree, [&](std::size_t group, CutSelector& selector, GradientCost& cost) {
-      const Pixel base = resolution.pixel(group);
-      const SampleStream random = stream(slot, group);
-      std::array<Receiver, std::size(k_stencil_offsets)> receivers;
-      std::size_t receiver_count = 0;
-      for (const Pixel offset : offsets)
-        if (resolution.contains(base + offset) && prefixes_[base + offset].gather)
-          receivers[receiver_count++] = receiver(base + offset);
-      std::span<const ChosenVpl> chosen;
-      if (receiver_count > 0) chosen = selector.select(std::span(receivers).first(receiver_count), random);
-      for (std::size_t k = 0; k < offsets.size(); ++k) {
-        const Pixel pixel = base + offsets[k];
-        if (!resolution.contains(pixel)) continue;
-        PathLog* const log = logged.any() ? logged.begin_part(pixel, stencil_logs_[stencil_index(group, k)]) : nullptr;
-        if (prefixes_[pixel].gather) log_selection(log, selector.last_cost(), receiver_count);
-        stencil_value(group, k) =
-            sample(tree, pixel, random, chosen, k == k_base ? cost.base_rays : cost.offset_rays, log);
+  void gather_stencils(const PassView& view, const Block& tile, Worker& worker) const {
+    for (std::size_t i = 0; i < tile.size.pixels(); ++i) {
+      const Pixel base = tile.first + tile.size.pixel(i);
+      const SampleStream random = stream(view.slot, view.plan.camera, index(base));
+      worker.samples.clear();
+      std::array<std::size_t, std::size(k_stencil_offsets)> places;
+      for (std::size_t k = 0; k < stencil_offsets(stencil_).size(); ++k) {
+        const Pixel pixel = base + k_stencil_offsets[k];
+        if (!worker.region.find(pixel)) continue;
+        PathLog* const log = stencils_.begin_log(view.logged, base, k);
+        if (log) log->append(worker.region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
+        places[worker.samples.size()] = k;
+        worker.samples.push_back(begin_sample(worker, pixel, random, log));
       }
-    });
-    parallel_for(resolution.pixels(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) record_stencil_values(resolution.pixel(i), logged, half);
-    });
-  }
-
-  std::size_t stencil_index(std::size_t base, std::size_t k) const {
-    return base * stencil_offsets(stencil_).size() + k;
-  }
-  PartValues& stencil_value(std::size_t base, std::size_t k) { return stencil_values_[stencil_index(base, k)]; }
-
-  /// The pixel's primal is the mean over all groups that hold it; a difference the mean over those that hold both
-  /// pixels.
-  void record_stencil_values(Pixel pixel, const LoggedSamples& logged, FilmHalf& half) {
-    const Resolution resolution = prefixes_.resolution();
-    const auto offsets = stencil_offsets(stencil_);
-    PartValues sum;
-    int count = 0;
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-      const Pixel base{pixel.x - offsets[k].x, pixel.y - offsets[k].y};
-      if (!resolution.contains(base)) continue;
-      sum += stencil_value(resolution.index(base), k);
-      ++count;
+      worker.gatherer.gather_together(worker.samples, view.plan.effort(base), random);
+      for (std::size_t j = 0; j < worker.samples.size(); ++j) {
+        GroupSample& sample = worker.samples[j];
+        (places[j] == k_base ? worker.cost.base_rays : worker.cost.offset_rays) += sample.context.rays;
+        if (sample.context.log) sample.context.log->add_rays(sample.context.rays);
+        stencils_.value(base, places[j]) = sample.radiance;
+        if (places[j] == k_base) note(view, base, sample);
+      }
     }
-    sum *= 1 / static_cast<float>(count);
-    PathLog memory;
-    PathLog* const log = begin_log(logged, pixel, memory);
-    if (log) append_group_logs(pixel, count, *log);
-    record(half, pixel, sum, log);
-
-    const auto difference = [&](Pixel step, std::size_t forward, std::size_t backward, MomentImage& moments) {
-      if (!resolution.contains(pixel + step)) return;
-      const std::size_t here = resolution.index(pixel), there = resolution.index(pixel + step);
-      Rgb d = stencil_value(here, forward).total() - stencil_value(here, k_base).total();
-      if (stencil_ == Stencil::symmetric)
-        d = 0.5f * (d + stencil_value(there, k_base).total() - stencil_value(there, backward).total());
-      moments.add(pixel, d);
-    };
-    difference({1, 0}, k_right, k_left, half.dx);
-    difference({0, 1}, k_lower, k_upper, half.dy);
-  }
-
-  void append_group_logs(Pixel pixel, int groups, PathLog& log) const {
-    const Resolution resolution = prefixes_.resolution();
-    const auto offsets = stencil_offsets(stencil_);
-    for (std::size_t k = 0; k < offsets.size(); ++k) {
-      const Pixel base{pixel.x - offsets[k].x, pixel.y - offsets[k].y};
-      if (!resolution.contains(base)) continue;
-      log.note(happening::Group{base, groups});
-      log.append(stencil_logs_[stencil_index(resolution.index(base), k)], 1 / static_cast<float>(groups));
-    }
-  }
-
-  /// Runs body(group, selector, cost) for all groups in parallel.
-  template <class Body>
-  void run_groups(std::size_t groups, const LightTree& tree, const Body& body) {
-    std::mutex cost_mutex;
-    parallel_for(groups, 64, [&](std::size_t begin, std::size_t end) {
-      CutSelector selector(tree, {.size = cut_size_}, gather_.bound);
-      GradientCost cost;
-      for (std::size_t group = begin; group < end; ++group) body(group, selector, cost);
-      cost.selection = selector.cost();
-      const std::lock_guard lock(cost_mutex);
-      cost_ += cost;
-    });
   }
 
   Shift shift_ = Shift::reconnection;
@@ -269,15 +268,14 @@ class GradientStochasticLightcuts final : public Integrator {
   Resolution block_{4, 4};
   Gather gather_kind_ = Gather::descent;
   int cut_size_ = 10;
+  TileParameters tile_;
+  AdaptedEffort effort_;
+  bool gather_vertices_ = true;
   VplSource source_{VplSource::Structure::tree};
   const Scene* scene_ = nullptr;
   RenderSettings settings_;
-  GatherSettings gather_;
-  Image<CameraPrefix> prefixes_;
-  std::vector<PartValues> stencil_values_;  // per base pixel and offset
-  // The same where samples are logged: of prefixes_ and stencil_values_.
-  Image<PathLog> prefix_logs_;
-  std::vector<PathLog> stencil_logs_;
+  GroupGatherSettings groups_;
+  mutable StencilValues stencils_;  // each base's by the thread of its tile
   GradientCost cost_;
 };
 

@@ -28,11 +28,14 @@ bool connection_may_count(const PathContext& context, int edges, int max_edges) 
   return context.scene.has_crossings() && edges < max_edges && components.includes(edges + 1);
 }
 
-Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) {
-  Passage passage = context.scene.passage(ray, max_edges - edges);
+Passage count_passage(PathContext& context, Passage passage, int edges) {
   context.rays += static_cast<std::uint64_t>(passage.rays);
   if (!context.settings.components.includes(edges + passage.crossings)) passage.transmittance = Rgb();
   return passage;
+}
+
+Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) {
+  return count_passage(context, context.scene.passage(ray, max_edges - edges), edges);
 }
 
 void log_vertex(const PathContext& context, const PathVertex& vertex, Rgb throughput) {

@@ -82,6 +82,9 @@ Ray shadow_ray(const SurfacePoint& from, const DirectSample& light);
 /// Whether light can count over a path whose last connection makes `edges` edges of it (>= 2, at most `max_edges`
 /// count), and one more for each crossing on it.
 bool connection_may_count(const PathContext& context, int edges, int max_edges);
+/// Counts the rays of a connection's passage; makes it black where the path with its crossings does not count.
+/// `edges`: without crossings.
+Passage count_passage(PathContext& context, Passage passage, int edges);
 /// What gets along the connection; black where nothing does, or where the path with its crossings does not count.
 /// `edges`: without crossings, at most max_edges.
 Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges);

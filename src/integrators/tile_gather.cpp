@@ -4,29 +4,6 @@
 #include <array>
 
 namespace gradslc {
-namespace {
-
-/// The variance of a sum of systematic draws, from their successive differences.
-class DrawScatter {
- public:
-  /// `count` draws in succession, each of which has brought `value`.
-  void add(float value, std::uint32_t count) {
-    if (draws_ > 0) squares_ += (value - last_) * (value - last_);
-    last_ = value, draws_ += count;
-  }
-  /// Variance that a sum of `samples` draws would have if it were made by one; 0 where nothing can be told.
-  float variance_of_one(int samples) const {
-    if (draws_ < 2) return 0;
-    const auto draws = static_cast<float>(draws_);
-    return static_cast<float>(samples) * draws * squares_ / (2 * (draws - 1));
-  }
-
- private:
-  float last_ = 0, squares_ = 0;
-  std::uint32_t draws_ = 0;
-};
-
-}  // namespace
 
 void TileGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
   drawn_.clear();
@@ -53,6 +30,12 @@ void TileGatherer::calibrate(std::span<const Receiver> receivers) {
   for (std::size_t i = 0; i < k_points; ++i)  // along a diagonal of the tile
     points[i] = receivers[(2 * i + 1) * (receivers.size() - 1) / (2 * k_points)].position;
   candidates_.calibrate(vpls_, lobes_, points);
+}
+
+CandidateSet& TileGatherer::share(std::size_t receivers) {
+  if (parameters_.learn_visibility && gathers_++ % k_gathers_between_lessons == 0) candidates_.learn_visibility();
+  cost_.evaluations += receivers * candidates_.size();
+  return candidates_;
 }
 
 TileLight TileGatherer::gather(PathContext& context, const PathVertex& x, int draws, double u) {

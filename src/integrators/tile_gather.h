@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "integrators/draw_scatter.h"
 #include "integrators/gathering.h"
 #include "lighttree/candidates.h"
 
@@ -62,8 +63,12 @@ class TileGatherer {
   void begin_tile(std::span<const Receiver> receivers, double u);
   /// Light from VPLs at x, which must be one of the tile's, by `draws` >= 1 of them; `u` in [0,1).
   TileLight gather(PathContext& context, const PathVertex& x, int draws, double u);
+  /// The candidates, for a choice that several gather points share; counted as `evaluations` of each.
+  CandidateSet& share(std::size_t receivers);
   /// A VertexGather, of one draw, at a vertex behind a ray sent from one of the tile's gather points.
   Rgb gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges);
+  const VplView& vpls() const { return vpls_; }
+  const TileParameters& parameters() const { return parameters_; }
   const TileCost& cost() const { return cost_; }
   /// Nodes that were visited for the tile.
   std::uint64_t tile_nodes() const { return tile_nodes_; }

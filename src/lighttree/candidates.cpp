@@ -169,6 +169,16 @@ void CandidateSet::evaluate(const CandidateReceiver& r, float bound, CandidateSu
   }
 }
 
+void CandidateSet::evaluate(std::span<const CandidateReceiver> receivers, float bound) {
+  shared_.assign(groups_.size(), 0);
+  for (const CandidateReceiver& receiver : receivers) {
+    evaluate(receiver, bound);
+    for (std::size_t i = 0; i < shared_.size(); ++i) shared_[i] += summed_.sums[i];
+  }
+  summed_.subset = {};
+  std::swap(summed_.sums, shared_);
+}
+
 void CandidateSet::note_visibility(std::uint32_t candidate, bool visible) {
   const auto [group, lane] = place_of(candidate);
   tests_[group][lane] += 1;
@@ -233,6 +243,20 @@ Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t 
   const auto& flux = groups_[group].flux;
   return receiver.diffuse * Rgb(flux[0][lane], flux[1][lane], flux[2][lane]) *
          (k_inv_pi * k_inv_pi * geometry_[group][lane]);
+}
+
+Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t candidate, float bound) const {
+  const auto [group, lane] = place_of(candidate);
+  const Group& g = groups_[group];
+  const auto vec = [lane = lane](const FloatV(&v)[3]) { return Vec3{v[0][lane], v[1][lane], v[2][lane]}; };
+  const Vec3 d = vec(g.position) - from_origin(receiver.receiver.position);
+  const float distance2 = length_squared(d);
+  const float along_x = dot(d, receiver.receiver.normal), along_y = dot(d, vec(g.geometric));
+  if (!(distance2 > 0) || along_x <= 0 || along_y >= 0) return Rgb();
+  const float cap = bound / max_channel(receiver.diffuse) * g.inverse_pi_f_y[lane];
+  const float geometry = std::min(-along_x * along_y / (distance2 * distance2), cap);
+  return receiver.diffuse * Rgb(g.flux[0][lane], g.flux[1][lane], g.flux[2][lane]) *
+         (k_inv_pi * k_inv_pi * geometry);
 }
 
 }  // namespace gradslc

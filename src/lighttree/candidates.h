@@ -60,6 +60,8 @@ class CandidateSet {
   /// Finds the target of every candidate of a subset, which if it is not the whole must come from random_subset();
   /// choose() draws in proportion.
   void evaluate(const CandidateReceiver& receiver, float bound, CandidateSubset subset = {});
+  /// The law that several receivers share (DESIGN 6): targets are the sums of theirs.
+  void evaluate(std::span<const CandidateReceiver> receivers, float bound);
   /// Systematic resampling of `samples` draws with `u` in [0,1), in the order in which the candidates were assigned:
   /// draws are stratified over what is near together there. Probabilities are those of the subset's being chosen times
   /// the draw's among its candidates. Empty if no candidate contributes.
@@ -69,8 +71,12 @@ class CandidateSet {
   Normal3 geometric_normal(std::uint32_t candidate) const;
   /// Count over expected count: what a contribution of this candidate is multiplied by.
   float weight(std::uint32_t candidate) const { return weights_[candidate]; }
-  /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() has found it.
+  /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() of this receiver alone has found it.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const;
+  /// The same, found anew; only if simple() and the receiver's lobe is Lambert's.
+  Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate, float bound) const;
+  /// Whether all candidates are Lambert's with one normal each.
+  bool simple() const { return simple_; }
   /// As evaluate() has found it, in the unit of the largest channel of pi^2 contribution(). Of the subset only.
   float target(std::uint32_t candidate) const {
     const auto [group, lane] = place_of(candidate);
@@ -124,6 +130,7 @@ class CandidateSet {
   // Results of evaluate(): cosines over squared distance, bounded; targets.
   std::vector<FloatV> geometry_;
   SummedTargets summed_;
+  std::vector<FloatV> shared_;
 };
 
 }  // namespace gradslc

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <immintrin.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <limits>
@@ -90,6 +92,54 @@ struct ShadowQuery {
 };
 static_assert(std::is_standard_layout_v<ShadowQuery>);
 
+/// The same for up to 16 rays side by side.
+struct ShadowPacketQuery {
+  static constexpr std::size_t k_size = 16;
+  RTCIntersectContext context;  // first, as above
+  std::uint32_t skips_crossings = 0;  // bits, as in the next two
+  std::uint32_t skipped = 0, blocked = 0;
+
+  void trace(RTCScene scene, std::span<const Ray> rays) {
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(64) std::array<int, k_size> valid = {};
+    RTCRay16 packet;
+    for (std::size_t i = 0; i < k_size; ++i) packet.tfar[i] = -1;  // not traced
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Ray& ray = rays[i];
+      valid[i] = -1;
+      packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
+      packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
+      packet.tnear[i] = std::numeric_limits<float>::min(), packet.tfar[i] = ray.max_distance;
+      packet.time[i] = 0, packet.mask[i] = 0xffffffffu, packet.flags[i] = 0;
+      packet.id[i] = static_cast<unsigned>(i);
+    }
+    rtcOccluded16(valid.data(), scene, &context, &packet);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if (packet.tfar[i] < 0) blocked |= 1u << i;
+  }
+
+  static void skip(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<ShadowPacketQuery*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+      if (arguments->valid[i] == 0) continue;
+      const std::uint32_t bit = 1u << RTCRayN_id(arguments->ray, arguments->N, i);
+      if ((query->skips_crossings & bit) == 0) continue;
+      query->skipped |= bit;
+      arguments->valid[i] = 0;
+    }
+  }
+};
+static_assert(std::is_standard_layout_v<ShadowPacketQuery>);
+
+/// Embree's filter of surfaces that can let light pass: which query asks is known by its flags.
+void skip_crossings(const RTCFilterFunctionNArguments* arguments) {
+  if (arguments->context->flags == RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
+    ShadowPacketQuery::skip(arguments);
+  else
+    ShadowQuery::skip(arguments);
+}
+
 }  // namespace
 
 /// Device, scene and what they use of memory.
@@ -135,7 +185,7 @@ Geometry Scene::Embree::make_geometry(const TriangleMesh& mesh, bool crosses) co
   check();  // here: Embree keeps errors by thread
   std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Point3*>(positions));
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), static_cast<std::array<std::uint32_t, 3>*>(indices));
-  if (crosses) rtcSetGeometryOccludedFilterFunction(geometry.get(), ShadowQuery::skip);
+  if (crosses) rtcSetGeometryOccludedFilterFunction(geometry.get(), skip_crossings);
   rtcCommitGeometry(geometry.get());
   check();
   return geometry;
@@ -221,12 +271,32 @@ void Scene::shade(const SurfacePoint& point, const Vec3& wo, ShadedPoint& shaded
 bool Scene::occluded(const Ray& ray) const { return ShadowQuery(false).finds_blocker(embree_->scene.get(), ray); }
 
 Passage Scene::passage(const Ray& ray, int max_crossings) const {
-  Passage passage;
   ShadowQuery query(max_crossings > 0);
-  const bool blocked = query.finds_blocker(embree_->scene.get(), ray);
-  if (blocked) passage.transmittance = Rgb();
-  if (blocked || !query.skipped) return passage;
+  if (query.finds_blocker(embree_->scene.get(), ray)) return {.transmittance = Rgb()};
+  return query.skipped ? walk(ray, max_crossings) : Passage();
+}
 
+void Scene::passages(std::span<const Ray> rays, std::span<const int> max_crossings,
+                     std::span<Passage> passages) const {
+  for (std::size_t begin = 0; begin < rays.size(); begin += ShadowPacketQuery::k_size) {
+    const std::size_t count = std::min(ShadowPacketQuery::k_size, rays.size() - begin);
+    ShadowPacketQuery query;
+    for (std::size_t i = 0; i < count; ++i)
+      if (max_crossings[begin + i] > 0) query.skips_crossings |= 1u << i;
+    query.trace(embree_->scene.get(), rays.subspan(begin, count));
+    for (std::size_t i = 0; i < count; ++i) {
+      Passage& passage = passages[begin + i] = Passage();
+      const std::uint32_t bit = 1u << i;
+      if ((query.blocked & bit) != 0)
+        passage.transmittance = Rgb();
+      else if ((query.skipped & bit) != 0)
+        passage = walk(rays[begin + i], max_crossings[begin + i]);
+    }
+  }
+}
+
+Passage Scene::walk(const Ray& ray, int max_crossings) const {
+  Passage passage;
   const Vec3 back = -normalize(ray.direction);
   Ray rest = ray;
   while (true) {

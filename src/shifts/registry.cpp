@@ -5,7 +5,8 @@ namespace {
 
 constexpr ShiftEntry k_shifts[] = {
     {"reconnection", "base and offsets connect to the same VPLs, chosen by a law shared over all of them"},
-    {"random_replay", "every pixel of a block repeats its own selection with the block's random numbers"},
+    {"random_replay", "every pixel of a block or tile repeats its own selection with the same random numbers"},
+    {"block", "all pixels of a block connect to the same VPLs, chosen by a law shared over them"},
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace gradslc {
 
 /// How neighbours' samples are made alike (DESIGN 6).
-enum class Shift : std::uint8_t { reconnection, random_replay };
+enum class Shift : std::uint8_t { reconnection, random_replay, block };
 
 struct ShiftEntry {
   const char* name;

@@ -1,0 +1,143 @@
+#include "integrators/group_gather.h"
+
+namespace gradslc {
+
+GroupGatherer::GroupGatherer(const Scene& scene, const LightTree& tree, const GroupGatherSettings& settings)
+    : scene_(scene),
+      tree_(tree),
+      settings_(settings),
+      vpls_{scene.materials(), tree.set},
+      selector_(tree, settings.cut, settings.gather.bound) {
+  if (!settings_.tile) return;
+  tile_.emplace(scene, tree, *settings_.tile, settings.lobes, settings.gather.bound, settings.reach);
+  if (settings.reach > 0) behind_ = [this](auto&&... at) { return tile_->gather_behind(at...); };
+}
+
+void GroupGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
+  if (tile_) tile_->begin_tile(receivers, u);
+}
+
+void GroupGatherer::gather_without_vpls(GroupSample& sample, const GatherEffort& effort) {
+  sample.seen = gradslc::gather_without_vpls(sample.context, *sample.prefix, settings_.gather, sample.radiance, effort,
+                                             behind_);
+}
+
+void GroupGatherer::gather_alone(GroupSample& sample, const GatherEffort& effort) {
+  if (!sample.prefix->gather) return;
+  gather_without_vpls(sample, effort);
+  const PathVertex& x = *sample.prefix->gather;
+  VplLight light;
+  if (tile_) {
+    const double u = sample.context.random.get1_double(Use::candidate_choice);
+    const TileLight gathered = tile_->gather(sample.context, x, effort.draws, u);
+    light = gathered.light;
+    const float scale = luminance(sample.prefix->throughput);
+    sample.seen.draw_variance = gathered.draw_variance * scale * scale;
+  } else {
+    const Receiver receiver = make_receiver({x, settings_.lobes});
+    const auto chosen = selector_.select({&receiver, 1}, sample.context.random);
+    log_selection(sample.context.log, selector_.last_cost());
+    light = gather_chosen(sample.context, x, tree_, chosen, settings_.gather.bound);
+  }
+  light.collect(sample.prefix->throughput, sample.radiance);
+}
+
+void GroupGatherer::gather_together(std::span<GroupSample> samples, const GatherEffort& effort,
+                                    const SampleStream& random) {
+  members_.clear();
+  for (GroupSample& sample : samples) {
+    if (!sample.prefix->gather) continue;
+    gather_without_vpls(sample, effort);
+    const PathVertex& x = *sample.prefix->gather;
+    const VertexRange range = vertices_that_may_count(sample.context, x, sample.context.settings.max_depth);
+    members_.push_back({&sample, make_candidate_receiver({x, settings_.lobes}, range.least, range.most), {}, {}});
+  }
+  if (members_.empty()) return;
+  if (tile_)
+    choose_candidates(effort.draws, random);
+  else
+    choose_by_descent(random);
+  for (const Draw& draw : draws_) connect(draw);
+  for (Member& member : members_) {
+    GroupSample& sample = *member.sample;
+    member.light.collect(sample.prefix->throughput, sample.radiance);
+    const float scale = luminance(sample.prefix->throughput);
+    sample.seen.draw_variance = member.scatter.variance_of_one(effort.draws) * scale * scale;
+  }
+}
+
+void GroupGatherer::choose_by_descent(const SampleStream& random) {
+  receivers_.clear();
+  for (const Member& member : members_) receivers_.push_back(member.receiver.receiver);
+  draws_.clear();
+  for (const ChosenVpl& chosen : selector_.select(receivers_, random))
+    draws_.push_back({.vpl = chosen.vpl, .weight = chosen.inverse_probability});
+  for (const Member& member : members_)
+    log_selection(member.sample->context.log, selector_.last_cost(), members_.size());
+}
+
+void GroupGatherer::choose_candidates(int samples, const SampleStream& random) {
+  candidate_receivers_.clear();
+  for (const Member& member : members_) candidate_receivers_.push_back(member.receiver);
+  candidates_ = &tile_->share(members_.size());
+  candidates_->evaluate(candidate_receivers_, settings_.gather.bound);
+  candidates_->choose(samples, random.get1_double(Use::candidate_choice), choice_);
+  draws_.clear();
+  for (const CandidateDraw& draw : choice_)
+    draws_.push_back({.vpl = candidates_->vpl(draw.candidate),
+                      .weight = static_cast<float>(draw.count / (samples * draw.probability)),
+                      .count = draw.count,
+                      .candidate = draw.candidate});
+  for (const Member& member : members_)
+    if (PathLog* const log = member.sample->context.log) log->add_selection(static_cast<float>(choice_.size()), 0);
+}
+
+Rgb GroupGatherer::unshadowed(const Member& member, const Draw& draw) const {
+  const Vpl& vpl = vpls_[draw.vpl];
+  const float bound = settings_.gather.bound;
+  if (!vpl_may_count(member.sample->context, member.x(), vpl)) return Rgb();
+  if (draw.candidate && candidates_->simple() && member.receiver.lambert)
+    return candidates_->contribution(member.receiver, *draw.candidate, bound);
+  const Rgb contribution = unshadowed_contribution({member.x(), settings_.lobes}, vpls_, vpl, bound);
+  return draw.candidate ? candidates_->weight(*draw.candidate) * contribution : contribution;
+}
+
+void GroupGatherer::connect(const Draw& draw) {
+  const Vpl& vpl = vpls_[draw.vpl];
+  const Normal3 normal = as_normal(vpl.geometric_normal.decode());
+  connections_.clear(), segments_.clear(), max_crossings_.clear();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    const Rgb contribution = unshadowed(member, draw);
+    if (is_black(contribution)) {
+      member.scatter.add(0, draw.count);
+      continue;
+    }
+    const int edges = connection_edges(member.x(), vpl);
+    connections_.push_back({i, contribution, edges});
+    segments_.push_back(connection_segment({member.x(), settings_.lobes}, vpl, normal));
+    max_crossings_.push_back(member.sample->context.settings.max_depth - edges);
+  }
+  passages_.resize(segments_.size());
+  scene_.passages(segments_, max_crossings_, passages_);
+
+  for (std::size_t i = 0; i < connections_.size(); ++i) {
+    const auto& [index, contribution, edges] = connections_[i];
+    Member& member = members_[index];
+    PathContext& context = member.sample->context;
+    const Rgb transmittance = count_passage(context, passages_[i], edges).transmittance;
+    const Rgb brought = contribution * transmittance * draw.weight;
+    member.light.from(vpl) += brought;
+    member.scatter.add(luminance(brought) / static_cast<float>(draw.count), draw.count);
+    const bool learns = draw.candidate && tile_->parameters().learn_visibility;
+    if (learns) candidates_->note_visibility(*draw.candidate, !is_black(transmittance));
+    if (!context.log) continue;
+    const std::optional<float> of_candidate =
+        draw.candidate ? std::optional(candidates_->weight(*draw.candidate)) : std::nullopt;
+    const float scale = of_candidate.value_or(1);
+    log_connection(context, member.x(), vpls_, draw.vpl, settings_.gather.bound, contribution / scale, transmittance,
+                   scale * draw.weight, of_candidate);
+  }
+}
+
+}  // namespace gradslc
