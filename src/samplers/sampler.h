@@ -32,6 +32,7 @@ enum class Use : std::uint16_t {
   candidate_choice,    ///< place of the comb that draws among them for a pixel
   ray_count,           ///< rounding of the number of rays of a gather
   crossing,            ///< whether a path passes straight through a surface or is scattered
+  lobe_kind,           ///< of gpt: which kind of lobe a direction is taken to be from, for its shift
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };
