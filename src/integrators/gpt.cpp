@@ -43,6 +43,8 @@ class GradientPathTracer final : public Integrator {
              "how offset paths are made: reconnected to the base path, or traced with its random numbers");
     v.real("shift_roughness", shift_roughness_, {1e-3, 1}, "alpha",
            "reconnection: lobes this rough and rougher are reconnected, half vectors of sharper ones are copied");
+    v.boolean("shift_emission", shift_emission_,
+              "reconnection: emitters seen by the camera are shifted, too, and not left to the primal");
     v.real("connectable_roughness", connectable_roughness_, {1e-3, 1}, "alpha",
            "threshold by which parts are labelled (as vpl.connectable_roughness)");
   }
@@ -117,7 +119,7 @@ class GradientPathTracer final : public Integrator {
     if (shift_ == Shift::reconnection) {
       std::array<OffsetPath, k_neighbours> offsets;
       for (std::size_t j = 0; j < count; ++j) offsets[j].start(camera_ray(context, film_position_of(neighbours[j])));
-      const GradientPathContext paths{context, offset_context, {true, true, shift_roughness_}};
+      const GradientPathContext paths{context, offset_context, {true, true, shift_roughness_}, shift_emission_};
       trace_gradient_path<Throughput>(paths, camera_ray(context, position), std::span(offsets).first(count), radiance);
       for (std::size_t j = 0; j < count; ++j) {
         (*differences)[neighbours[j]] = offsets[j].difference();
@@ -162,6 +164,7 @@ class GradientPathTracer final : public Integrator {
 
   Shift shift_ = Shift::reconnection;
   float shift_roughness_ = 0.1f;
+  bool shift_emission_ = false;
   float connectable_roughness_ = 0.1f;
   const Scene* scene_ = nullptr;
   RenderSettings settings_;

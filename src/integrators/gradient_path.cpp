@@ -51,7 +51,10 @@ class GradientPath {
     }
     for (OffsetPath& offset : offsets_) {
       offset.follow(context_.offsets, context_.lobes, edge);
-      if (counts) offset.add(throughput.total() * emission, offset.emission(context_.offsets, edge, emission));
+      if (edges_ == 1 && !context_.shifts_seen_emission)
+        offset.add_unshifted(throughput.total() * emission);
+      else if (counts)
+        offset.add(throughput.total() * emission, offset.emission(context_.offsets, edge, emission));
       if (hit) offset.arrive();
     }
     return hit.has_value();

@@ -8,9 +8,10 @@ namespace gradslc {
 
 /// A base path and its offsets, through neighbouring pixels.
 struct GradientPathContext {
-  PathContext& base;     ///< its random numbers are those of all paths
-  PathContext& offsets;  ///< counts their rays
-  LobeSelection lobes;   ///< all, split at the roughness by which vertices are connectable
+  PathContext& base;          ///< its random numbers are those of all paths
+  PathContext& offsets;       ///< counts their rays
+  LobeSelection lobes;        ///< all, split at the roughness by which vertices are connectable
+  bool shifts_seen_emission;  ///< else D = 1 has no offsets: its difference is that of the base paths
 };
 
 /// Follows a path from the camera to its end as trace_path() does, without Russian roulette, and has the offset paths

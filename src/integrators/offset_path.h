@@ -69,6 +69,10 @@ class OffsetPath {
   /// Adds one contribution of the base and the offset's, which is as a path of its own would bring it.
   void add(Rgb base, Rgb offset) { difference_ += offset_weight_ * offset - base_weight_ * base; }
 
+  /// The same of what is shifted by neither sense: the difference of both bases' contributions, with which
+  /// reconstruction leaves that light as the primal has it.
+  void add_unshifted(Rgb base) { difference_ += Rgb() - base; }
+
   State state() const { return state_; }
   Rgb throughput() const { return throughput_; }  ///< value over density, both the offset's own
   /// Offset minus base, weighted against the shift in the other sense: the sum of both senses' has the difference of
