@@ -7,7 +7,7 @@
 
 namespace gradslc {
 
-// Half-vector copy (Kettunen et al. 2015, section 5.2, after Jakob and Marschner 2012): the offset is scattered by a
+// Half-vector copy (Kettunen et al. 2015, after Jakob and Marschner 2012): the offset is scattered by a
 // facet that has the same normal h in its local frame as the base's. Directions are unit and local, +z the normal; wo
 // are given, wi sampled. Since dh' = dh, the Jacobian is |dh/dwi| at the base over |dh'/dwi'| at the offset.
 

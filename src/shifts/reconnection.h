@@ -9,7 +9,7 @@ namespace gradslc {
 
 /// Reconnects `offset` to the surface point `target` that the base path reaches from `base`. `normal`: the target's
 /// geometric one, on either side. Returns the unit direction in world space; its Jacobian is
-/// |cos' / cos| (d / d')^2, cosines at the target (Kettunen et al. 2015, section 5.2; Lehtinen et al. 2013).
+/// |cos' / cos| (d / d')^2, cosines at the target (Lehtinen et al. 2013; Kettunen et al. 2015).
 inline ShiftResult<ShiftedDirection> reconnect(Point3 base, Point3 offset, Point3 target, Normal3 normal) {
   const Vec3 from_base = target - base, from_offset = target - offset;
   const float distance_cos_base = dot(from_base, normal), distance_cos_offset = dot(from_offset, normal);
