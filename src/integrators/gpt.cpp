@@ -163,7 +163,7 @@ class GradientPathTracer final : public Integrator {
   }
 
   Shift shift_ = Shift::reconnection;
-  float shift_roughness_ = 0.1f;
+  float shift_roughness_ = 0.05f;
   bool shift_emission_ = false;
   float connectable_roughness_ = 0.1f;
   const Scene* scene_ = nullptr;
