@@ -134,6 +134,7 @@ class GradientPathTracer final : public Integrator {
       cost.shifts += count;
     }
     cost.offset_rays += offset_context.rays;
+    if (context.log) context.log->add_rays(offset_context.rays);
     return radiance;
   }
 
