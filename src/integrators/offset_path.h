@@ -14,8 +14,8 @@ struct Departure {
   Kind kind = Kind::straight;
   Point3 position;
   Vec3 wo, wi;  ///< local
-  float probability =
-      0;          ///< of this direction by this kind of lobe: 1/sr, of delta lobes discrete; 0: no shift is known
+  /// Of this direction by this kind of lobe: 1/sr, of delta lobes discrete; 0: no shift is known.
+  float probability = 0;
   float eta = 1;  ///< where it is refracted: index below the surface over that above
 };
 
@@ -34,9 +34,8 @@ struct BaseEdge {
   bool emits = false;                  ///< radiance comes from `hit`, or from outside the scene
 };
 
-/// The path that a shift makes of a base path, grown with it edge by edge. Its state after each step is what the base
-/// path's is, for the offset, and `ratio`: the density with which the offset's own pixel samples it, times the shift's
-/// Jacobian, over the density of the base.
+/// The path that a shift makes of a base path, grown with it edge by edge. It keeps its throughput as its own pixel
+/// would sample it, and the ratio of that density, times the shift's Jacobian, to the density of the base.
 class OffsetPath {
  public:
   enum class State : std::uint8_t {
@@ -50,17 +49,19 @@ class OffsetPath {
   void start(const Ray& camera_ray);
 
   // One call each for every step of the base path, in this order. `context`: counts the offsets' rays.
-  /// The base's edge, traced: the offset's own edge and, of what it sees at the end, the radiance.
+  /// Takes the offset's own edge where the base has taken `edge`.
   void follow(PathContext& context, const LobeSelection& lobes, const BaseEdge& edge);
+  /// What an emitter at the edge's end brings the offset, weighted against next-event estimation; of the base the same
+  /// without its throughput.
   Rgb emission(const PathContext& context, const BaseEdge& edge, Rgb base_emission) const;
-  /// The base path goes on at the end of the edge: false where the offset cannot.
+  /// The base path goes on at the end of the edge. The offset fails where it has left the scene.
   void arrive();
   /// The base passes straight through its vertex or is scattered there, with probability `base_pass` of passing.
   void pass_or_scatter(const PathVertex& base, bool passes, float base_pass);
   /// Next-event estimation at the offset's own vertex; only where `separate`.
   Rgb next_event(PathContext& context) const;
-  /// The same at the base's vertex, where `arriving`: without the emitter's radiance and transmittance; 0 where the
-  /// offset's lobes send nothing.
+  /// The same at the base's vertex, where `arriving`: what the emitter's radiance and the transmittance towards it, and
+  /// the weight against sampled directions, are multiplied by.
   Rgb arriving_weight(const PathVertex& base, const Vec3& wi, const DirectSample& light) const;
   float arriving_mis(const PathVertex& base, const Vec3& wi, const DirectSample& light, const Passage& passage) const;
   /// The base is scattered into a direction. Separate offsets wait for its next edge.
@@ -69,9 +70,8 @@ class OffsetPath {
   /// Adds one contribution of the base and the offset's, which is as a path of its own would bring it.
   void add(Rgb base, Rgb offset) { difference_ += offset_weight_ * offset - base_weight_ * base; }
 
-  /// The same of what is shifted by neither sense: the difference of both bases' contributions, with which
-  /// reconstruction leaves that light as the primal has it.
-  void add_unshifted(Rgb base) { difference_ += Rgb() - base; }
+  /// Adds what neither sense shifts: the difference of both pixels' own contributions.
+  void add_unshifted(Rgb base) { difference_ += -1.0f * base; }
 
   State state() const { return state_; }
   Rgb throughput() const { return throughput_; }  ///< value over density, both the offset's own
