@@ -9,6 +9,7 @@ constexpr IntegratorEntry k_integrators[] = {
     {"lightcuts", "lightcuts over virtual point lights: deterministic cuts by error bounds (biased)", make_lightcuts},
     {"slc", "stochastic lightcuts over virtual point lights", make_stochastic_lightcuts},
     {"gradslc", "stochastic lightcuts with gradients", make_gradient_stochastic_lightcuts},
+    {"gpt", "gradient-domain path tracing (Kettunen et al. 2015)", make_gradient_path_tracer},
 };
 
 }  // namespace

@@ -11,5 +11,6 @@ std::unique_ptr<Integrator> make_vpl_sampler();
 std::unique_ptr<Integrator> make_lightcuts();
 std::unique_ptr<Integrator> make_stochastic_lightcuts();
 std::unique_ptr<Integrator> make_gradient_stochastic_lightcuts();
+std::unique_ptr<Integrator> make_gradient_path_tracer();
 
 }  // namespace gradslc

@@ -140,6 +140,29 @@ float Bsdf::pdf_solid_angle(const Vec3& known, const Vec3& w, const LobeSelectio
   return choice.total == 0 ? 0 : choice.pdf_solid_angle(entries_, known, w);
 }
 
+std::optional<DeltaScattering> Bsdf::delta(const Vec3& known, bool transmitted) const {
+  constexpr float k_same_direction = 1e-8f;  // squared distance
+  const Choice choice(entries_, known, LobeSelection());
+  DeltaScattering sum;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    if (choice.energies[i] == 0) continue;
+    const auto& [lobe, weight, roughness] = entries_[i];
+    if (roughness != k_delta_roughness) continue;
+    // Lobes that do both reflect for small numbers and refract for large ones.
+    const float u_choice = transmitted ? k_one_minus_epsilon : 0;
+    const auto sample =
+        std::visit([&](const auto& any) { return any.sample(known, u_choice, Vec2(), Transport::radiance); }, lobe);
+    if (!sample || (sample->direction.z * known.z < 0) != transmitted) continue;
+    if (sum.probability > 0 && length_squared(sum.direction - sample->direction) > k_same_direction)
+      return std::nullopt;
+    sum.direction = sample->direction;
+    sum.value += weight * sample->weight * sample->pdf_solid_angle;
+    sum.probability += choice.energies[i] / choice.total * sample->pdf_solid_angle;
+  }
+  if (sum.probability == 0) return std::nullopt;
+  return sum;
+}
+
 float Bsdf::energy(const Vec3& known, const LobeSelection& lobes) const { return Choice(entries_, known, lobes).total; }
 
 ReflectionBound Bsdf::connectable_bound(const Vec3& known, const LobeSelection& lobes) const {

@@ -32,6 +32,13 @@ namespace gradslc {
 using Lobe = std::variant<Lambert, OrenNayar, SmoothCoatedDiffuse, RoughCoatedDiffuse, SmoothConductor, SmoothCoat,
                           ThinPaneReflection, SmoothDielectric, RoughConductor, RoughCoat, RoughDielectric>;
 
+/// What the delta lobes do in one of the directions that they scatter into.
+struct DeltaScattering {
+  Vec3 direction;         ///< local, unit
+  Rgb value;              ///< limit of f |cos| over the density of directions: a BsdfSample's weight times probability
+  float probability = 0;  ///< with which sample() takes that direction, > 0
+};
+
 /// A BSDF at one surface point, its textures looked up: a plain value, the sum of its lobes. Directions are unit, in
 /// the local frame whose +z is the shading normal, and point away from the surface: `wo` towards where light goes (the
 /// camera), `wi` towards where it comes from. Every function takes the lobes that it speaks of (DESIGN 4:
@@ -74,6 +81,9 @@ class Bsdf {
                                    Transport transport = Transport::radiance) const;
   /// Density of sample(), 1/sr; 0 for delta lobes.
   float pdf_solid_angle(const Vec3& known, const Vec3& w, const LobeSelection& lobes) const;
+  /// All that delta lobes reflect as mirrors do, or refract, when any lobe may be sampled; nullopt where there is
+  /// nothing, or lobes refract into different directions.
+  std::optional<DeltaScattering> delta(const Vec3& known, bool transmitted) const;
   /// Approximate directional albedo of the selected lobes, largest channel: what lobes are chosen by. 0 only where the
   /// lobes scatter nothing.
   float energy(const Vec3& known, const LobeSelection& lobes) const;

@@ -33,6 +33,7 @@ enum class Use : std::uint16_t {
   ray_count,           ///< rounding of the number of rays of a gather
   crossing,            ///< whether a path passes straight through a surface or is scattered
   candidate_subset,    ///< which of a tile's candidates a vertex behind a ray chooses among
+  lobe_kind,           ///< of gpt: which kind of lobe a direction is taken to be from, for its shift
 };
 
 enum class SamplerKind : std::uint8_t { independent, sobol };

@@ -131,7 +131,9 @@ constexpr const char* k_logged_methods[] = {
     R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
     R"({"integrator": "slc", "gather": "tile", "vpl": {"light_paths": 400}})",
     R"({"integrator": "gradslc", "vpl": {"light_paths": 400}})",
-    R"({"integrator": "gradslc", "shift": "random_replay", "vpl": {"light_paths": 400}})"};
+    R"({"integrator": "gradslc", "shift": "random_replay", "vpl": {"light_paths": 400}})",
+    "gpt",
+    R"({"integrator": "gpt", "shift": "random_replay"})"};
 
 /// The line of a replay that begins with `name`, without it.
 std::string replayed(const std::string& text, const std::string& name) {
@@ -280,7 +282,8 @@ TEST_F(Commands, AnyNumberOfThreadsGivesTheSameBits) {
                              R"({"integrator": "slc", "vpl": {"light_paths": 400}})",
                              R"({"integrator": "slc", "gather": "tile", "effort": {"pilot_passes": 2}})",
                              R"({"integrator": "gradslc", "shift": "reconnection", "reconstruction": "weighted"})",
-                             R"({"integrator": "gradslc", "shift": "random_replay", "reconstruction": "l2"})"}) {
+                             R"({"integrator": "gradslc", "shift": "random_replay", "reconstruction": "l2"})",
+                             R"({"integrator": "gpt", "reconstruction": "weighted"})"}) {
     std::vector<std::string> images;
     for (const char* threads : {"1", "2", "7"}) {
       const Outcome outcome = run({"render", "scene.xml", "--spp", "4", "--seed", "3", "--parts", "--threads", threads,

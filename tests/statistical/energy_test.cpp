@@ -38,6 +38,7 @@ std::vector<Method> methods(double threshold) {
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
   };
   for (Method& method : made) method.parameters["vpl/connectable_roughness"] = threshold;
+  made.push_back({"gpt", "gpt", {{"connectable_roughness", threshold}}});
   return made;
 }
 

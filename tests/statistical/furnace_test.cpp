@@ -29,6 +29,7 @@ const std::vector<Method>& methods() {
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 50.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 50.0}, {"stencil", "symmetric"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 50.0}, {"shift", "random_replay"}}},
+      {"gpt", "gpt", {}},
   };
   return k_methods;
 }

@@ -35,6 +35,47 @@ const std::vector<Method>& lightcut_methods() {
   return k_methods;
 }
 
+// Gradient-domain path tracing, each shift, and thresholds by which half vectors are copied on nearly all gloss, and
+// wherever a vertex is not diffuse.
+const std::vector<Method>& gradient_path_methods() {
+  static const std::vector<Method> k_methods = {
+      {"gpt", "gpt", {}},
+      {"gpt, sharp gloss reconnected", "gpt", {{"shift_roughness", 0.001}}},
+      {"gpt, half vectors on gloss", "gpt", {{"shift_roughness", 1.0}}},
+      {"gpt random replay", "gpt", {{"shift", "random_replay"}}},
+  };
+  return k_methods;
+}
+constexpr UnbiasedOptions k_gradient_options{.methods = {.runs = 48, .passes = 16, .block = 8, .seed = 5}};
+
+void expect_unbiased_gradients(const Scene& scene, const RenderSettings& settings) {
+  expect_unbiased(scene, settings, gradient_path_methods(), k_gradient_options);
+}
+
+TEST(UnbiasedGradientPaths, DiffuseBox) { expect_unbiased_gradients(test_box(k_resolution), {.max_depth = 5}); }
+TEST(UnbiasedGradientPaths, DiffuseBoxIndirectLight) {
+  expect_unbiased_gradients(test_box(k_resolution),
+                            {.max_depth = 5, .components = {.emission = false, .direct = false}});
+}
+TEST(UnbiasedGradientPaths, MirrorBox) {
+  expect_unbiased_gradients(test_box(k_resolution, {.mirror = true}), {.max_depth = 6});
+}
+TEST(UnbiasedGradientPaths, BentNormals) {
+  expect_unbiased_gradients(test_box(k_resolution, {.bent_normals = true}), {.max_depth = 5});
+}
+TEST(UnbiasedGradientPaths, LampInRoughGlass) {
+  expect_unbiased_gradients(test_box(k_resolution, {.glass_lamp = true}), {.max_depth = 5});
+}
+TEST(UnbiasedGradientPaths, GlossyBoxUnderALamp) {
+  expect_unbiased_gradients(glossy_box(k_resolution, GlossyLight::lamp), {.max_depth = 5});
+}
+TEST(UnbiasedGradientPaths, GlossyBoxUnderTheSky) {
+  expect_unbiased_gradients(glossy_box(k_resolution, GlossyLight::sky), {.max_depth = 5});
+}
+TEST(UnbiasedGradientPaths, GlossyBoxWithPointLights) {
+  expect_unbiased_gradients(glossy_box(k_resolution, GlossyLight::points), {.max_depth = 5});
+}
+
 TEST(Unbiased, DiffuseBoxAllLight) { expect_unbiased(test_box(k_resolution), {.max_depth = 5}, lightcut_methods()); }
 
 TEST(Unbiased, DiffuseBoxIndirectLight) {
