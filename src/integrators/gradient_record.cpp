@@ -8,10 +8,15 @@ void StencilValues::begin(Resolution resolution, Stencil stencil, bool logged) {
   resolution_ = resolution, offsets_ = stencil_offsets(stencil);
   values_.assign(resolution.pixels() * offsets_.size(), PartValues());
   logs_.resize(logged ? values_.size() : 0);
+  prefix_logs_.resize(logged ? resolution.pixels() : 0);
 }
 
 PathLog* StencilValues::begin_log(const LoggedSamples& logged, Pixel base, std::size_t k) {
   return logged.any() ? logged.begin_part(base + offsets_[k], logs_[index(base, k)]) : nullptr;
+}
+
+PathLog* StencilValues::begin_prefix_log(const LoggedSamples& logged, Pixel pixel) {
+  return logged.any() ? logged.begin_part(pixel, prefix_logs_[resolution_.index(pixel)]) : nullptr;
 }
 
 void StencilValues::record(const LoggedSamples& logged, FilmHalf& half, bool gradients) const {
@@ -40,11 +45,13 @@ void StencilValues::record_primal(Pixel pixel, const LoggedSamples& logged, Film
   sum *= share;
   PathLog memory;
   PathLog* const log = logged.begin(pixel, memory);
-  if (log)
+  if (log) {
+    log->append(prefix_logs_[resolution_.index(pixel)], 1);
     for_each_base([&](Pixel base, std::size_t k) {
       log->note(happening::Group{base, groups});
       log->append(logs_[index(base, k)], share);
     });
+  }
   gradslc::record(half, pixel, sum, log);
 }
 

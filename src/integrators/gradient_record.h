@@ -28,6 +28,8 @@ class StencilValues {
   PartValues& value(Pixel base, std::size_t k) { return values_[index(base, k)]; }
   /// That value's log, begun; null where none is wanted.
   PathLog* begin_log(const LoggedSamples& logged, Pixel base, std::size_t k);
+  /// The log of what a pixel's groups share.
+  PathLog* begin_prefix_log(const LoggedSamples& logged, Pixel pixel);
   void record(const LoggedSamples& logged, FilmHalf& half, bool gradients) const;
 
  private:
@@ -40,7 +42,7 @@ class StencilValues {
   Resolution resolution_;
   std::span<const Pixel> offsets_;
   std::vector<PartValues> values_;  // per base pixel and offset
-  std::vector<PathLog> logs_;
+  std::vector<PathLog> logs_, prefix_logs_;
 };
 
 }  // namespace gradslc

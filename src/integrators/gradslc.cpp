@@ -42,8 +42,7 @@ class GradientStochasticLightcuts final : public Integrator {
     });
     v.choice("gather", gather_kind_, {"descent", "tile"},
              "how VPLs are selected: by descent from a cut (as published), or among a tile's candidates");
-    v.integer("cut_size", cut_size_, {1, 100000}, "nodes",
-              "descent: nodes of the cut, and so shadow rays of a gather");
+    v.integer("cut_size", cut_size_, {1, 100000}, "nodes", "descent: nodes of the cut, and so shadow rays of a gather");
     v.group("tile", "tile: candidates shared by the pixels of a tile", [&] { gradslc::describe(v, tile_); });
     v.group("effort", "tile: how many samples of each kind a gather takes", [&] { effort_.describe(v); });
     v.boolean("gather_vertices", gather_vertices_,
@@ -70,9 +69,9 @@ class GradientStochasticLightcuts final : public Integrator {
     if (gather_kind_ == Gather::descent)
       render_tiles(pass, {}, film);
     else
-      effort_.render_pass(pass, film, tile_.samples, [this](std::uint32_t number, const EffortPlan& plan, Film& target) {
-        render_tiles(number, plan, target);
-      });
+      effort_.render_pass(
+          pass, film, tile_.samples,
+          [this](std::uint32_t number, const EffortPlan& plan, Film& target) { render_tiles(number, plan, target); });
     const PassSlot slot = slot_of(pass);
     if (slot.closes_set) film.close_set(slot.half);
   }
@@ -141,7 +140,8 @@ class GradientStochasticLightcuts final : public Integrator {
 
   /// Groups lie within tiles, whose borders move from pass to pass.
   Resolution tile_size() const {
-    if (shift_ == Shift::reconnection || (shift_ == Shift::random_replay && groups_.tile)) return {tile_.size, tile_.size};
+    if (shift_ == Shift::reconnection || (shift_ == Shift::random_replay && groups_.tile))
+      return {tile_.size, tile_.size};
     const auto whole_blocks = [&](int side) { return (tile_.size + side - 1) / side * side; };
     return {whole_blocks(block_.width), whole_blocks(block_.height)};
   }
@@ -171,7 +171,8 @@ class GradientStochasticLightcuts final : public Integrator {
     const Block region = shift_ == Shift::reconnection ? with_neighbours(tile) : tile;
     if (view.logged.skips(region.first, region.size)) return;
     const SampleStream image_stream = stream(view.slot, view.plan.camera, k_image_stream);
-    worker.region.trace(context(image_stream), image_stream.get2(Use::pixel), region.first, region.size, view.logged);
+    worker.region.trace(context(image_stream), image_stream.get2(Use::pixel), region.first, region.size, view.logged,
+                        [&](Pixel pixel) { return !is_corner(pixel, tile); });
     worker.cost.prefix_rays += worker.region.rays();
     worker.receivers.clear();
     for (const CameraPrefix& prefix : worker.region.prefixes())
@@ -191,6 +192,12 @@ class GradientStochasticLightcuts final : public Integrator {
     const Pixel end{std::min(tile.first.x + tile.size.width + 1, image.width),
                     std::min(tile.first.y + tile.size.height + 1, image.height)};
     return {first, {end.x - first.x, end.y - first.y}};
+  }
+
+  /// Of the neighbours, those that no pixel of the tile shifts to.
+  static bool is_corner(Pixel pixel, const Block& tile) {
+    const Pixel local{pixel.x - tile.first.x, pixel.y - tile.first.y};
+    return (local.x < 0 || local.x >= tile.size.width) && (local.y < 0 || local.y >= tile.size.height);
   }
 
   GroupSample begin_sample(const Worker& worker, Pixel pixel, const SampleStream& random, PathLog* log) const {
@@ -246,11 +253,17 @@ class GradientStochasticLightcuts final : public Integrator {
       std::array<std::size_t, std::size(k_stencil_offsets)> places;
       for (std::size_t k = 0; k < stencil_offsets(stencil_).size(); ++k) {
         const Pixel pixel = base + k_stencil_offsets[k];
-        if (!worker.region.find(pixel)) continue;
+        if (!worker.region.contains(pixel)) continue;
         PathLog* const log = stencils_.begin_log(view.logged, base, k);
-        if (log) log->append(worker.region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
+        // A pixel's own tile tells what its prefix has met; here only what it has cost to trace it once more.
+        const bool outside = !tile.size.contains({pixel.x - tile.first.x, pixel.y - tile.first.y});
+        if (log && outside) log->add_rays(worker.region.log(pixel).sample().rays);
         places[worker.samples.size()] = k;
         worker.samples.push_back(begin_sample(worker, pixel, random, log));
+      }
+      if (PathLog* const log = stencils_.begin_prefix_log(view.logged, base)) {
+        log->append(worker.region.log(base), 1);
+        log->add_selection(0, node_share(worker, tile));
       }
       worker.gatherer.gather_together(worker.samples, view.plan.effort(base), random);
       for (std::size_t j = 0; j < worker.samples.size(); ++j) {

@@ -18,8 +18,8 @@ void GroupGatherer::begin_tile(std::span<const Receiver> receivers, double u) {
 }
 
 void GroupGatherer::gather_without_vpls(GroupSample& sample, const GatherEffort& effort) {
-  sample.seen = gradslc::gather_without_vpls(sample.context, *sample.prefix, settings_.gather, sample.radiance, effort,
-                                             behind_);
+  sample.seen =
+      gradslc::gather_without_vpls(sample.context, *sample.prefix, settings_.gather, sample.radiance, effort, behind_);
 }
 
 void GroupGatherer::gather_alone(GroupSample& sample, const GatherEffort& effort) {

@@ -255,8 +255,7 @@ Rgb CandidateSet::contribution(const CandidateReceiver& receiver, std::uint32_t 
   if (!(distance2 > 0) || along_x <= 0 || along_y >= 0) return Rgb();
   const float cap = bound / max_channel(receiver.diffuse) * g.inverse_pi_f_y[lane];
   const float geometry = std::min(-along_x * along_y / (distance2 * distance2), cap);
-  return receiver.diffuse * Rgb(g.flux[0][lane], g.flux[1][lane], g.flux[2][lane]) *
-         (k_inv_pi * k_inv_pi * geometry);
+  return receiver.diffuse * Rgb(g.flux[0][lane], g.flux[1][lane], g.flux[2][lane]) * (k_inv_pi * k_inv_pi * geometry);
 }
 
 }  // namespace gradslc

@@ -71,7 +71,8 @@ class CandidateSet {
   Normal3 geometric_normal(std::uint32_t candidate) const;
   /// Count over expected count: what a contribution of this candidate is multiplied by.
   float weight(std::uint32_t candidate) const { return weights_[candidate]; }
-  /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() of this receiver alone has found it.
+  /// Where both lobes are Lambert's: weight() times the contribution, as evaluate() of this receiver alone has found
+  /// it.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate) const;
   /// The same, found anew; only if simple() and the receiver's lobe is Lambert's.
   Rgb contribution(const CandidateReceiver& receiver, std::uint32_t candidate, float bound) const;

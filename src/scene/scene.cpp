@@ -95,7 +95,7 @@ static_assert(std::is_standard_layout_v<ShadowQuery>);
 /// The same for up to 16 rays side by side.
 struct ShadowPacketQuery {
   static constexpr std::size_t k_size = 16;
-  RTCIntersectContext context;  // first, as above
+  RTCIntersectContext context;        // first, as above
   std::uint32_t skips_crossings = 0;  // bits, as in the next two
   std::uint32_t skipped = 0, blocked = 0;
 
@@ -276,8 +276,7 @@ Passage Scene::passage(const Ray& ray, int max_crossings) const {
   return query.skipped ? walk(ray, max_crossings) : Passage();
 }
 
-void Scene::passages(std::span<const Ray> rays, std::span<const int> max_crossings,
-                     std::span<Passage> passages) const {
+void Scene::passages(std::span<const Ray> rays, std::span<const int> max_crossings, std::span<Passage> passages) const {
   for (std::size_t begin = 0; begin < rays.size(); begin += ShadowPacketQuery::k_size) {
     const std::size_t count = std::min(ShadowPacketQuery::k_size, rays.size() - begin);
     ShadowPacketQuery query;

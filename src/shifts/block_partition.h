@@ -25,8 +25,8 @@ class BlockPartition {
     Pixel first;      ///< upper left pixel
     Resolution size;  ///< at least 1x1
   };
-  /// Calls body(Block) for the smaller blocks that a block consists of, whose sides divide those of the whole ones: they
-  /// are cut off where it is.
+  /// Calls body(Block) for the smaller blocks that a block consists of, whose sides divide those of the whole ones:
+  /// they are cut off where it is.
   template <class Body>
   void for_each_within(const Block& block, Resolution smaller, const Body& body) const {
     const Pixel end{block.first.x + block.size.width, block.first.y + block.size.height};

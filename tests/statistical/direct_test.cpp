@@ -29,6 +29,7 @@ std::vector<Method> direct_methods(double light_paths) {
       {"slc tile", "slc", {{"gather", "tile"}, {"tile/candidates", 128.0}}},
       {"gradslc reconnection", "gradslc", {}},
       {"gradslc random replay", "gradslc", {{"shift", "random_replay"}}},
+      {"gradslc block, tile", "gradslc", {{"shift", "block"}, {"gather", "tile"}, {"tile/size", 8.0}}},
   };
   for (Method& method : methods) {
     method.parameters["vpl/direct"] = true;

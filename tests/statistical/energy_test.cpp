@@ -36,6 +36,7 @@ std::vector<Method> methods(double threshold) {
       {"slc tile", "slc", {{"gather", "tile"}, {"vpl/light_paths", 1000.0}}},
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "reconnection"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 1000.0}, {"shift", "random_replay"}}},
+      {"gradslc block, tile", "gradslc", {{"vpl/light_paths", 1000.0}, {"gather", "tile"}, {"shift", "block"}}},
   };
   for (Method& method : made) method.parameters["vpl/connectable_roughness"] = threshold;
   made.push_back({"gpt", "gpt", {{"connectable_roughness", threshold}}});

@@ -29,6 +29,17 @@ const std::vector<Method>& methods() {
       {"gradslc reconnection", "gradslc", {{"vpl/light_paths", 50.0}}},
       {"gradslc symmetric", "gradslc", {{"vpl/light_paths", 50.0}, {"stencil", "symmetric"}}},
       {"gradslc random replay", "gradslc", {{"vpl/light_paths", 50.0}, {"shift", "random_replay"}}},
+      {"gradslc block", "gradslc", {{"vpl/light_paths", 50.0}, {"shift", "block"}, {"block/width", 3.0}}},
+      {"gradslc block, tile",
+       "gradslc",
+       {{"vpl/light_paths", 50.0}, {"shift", "block"}, {"gather", "tile"}, {"tile/size", 8.0}}},
+      {"gradslc reconnection, tile", "gradslc", {{"vpl/light_paths", 50.0}, {"gather", "tile"}, {"tile/size", 8.0}}},
+      {"gradslc symmetric, tile",
+       "gradslc",
+       {{"vpl/light_paths", 50.0}, {"gather", "tile"}, {"tile/size", 8.0}, {"stencil", "symmetric"}}},
+      {"gradslc random replay, tile",
+       "gradslc",
+       {{"vpl/light_paths", 50.0}, {"gather", "tile"}, {"tile/size", 4.0}, {"shift", "random_replay"}}},
       {"gpt", "gpt", {}},
   };
   return k_methods;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_fixtures.h"
+#include "support/random.h"
 
 namespace gradslc {
 namespace {
@@ -59,6 +60,36 @@ TEST(Passage, EndsAfterTheMostCrossings) {
     EXPECT_LE(passage.crossings, most);
     EXPECT_LE(passage.rays, most + 2);
   }
+}
+
+// Packets of any size, whole or not, of rays in all directions, with and without crossings allowed.
+TEST(Passage, OfManyRaysIsThatOfEach) {
+  const Scene scene = stack({mask(k_mask), make_thin_dielectric(1.5f), make_diffuse(Texture(Rgb(0.5f))), mask(k_mask)});
+  TestRandom random(5);
+  int blocked = 0, crossed = 0;
+  for (const std::size_t count : {0u, 1u, 3u, 15u, 16u, 17u, 32u, 50u})
+    for (int round = 0; round < 50; ++round) {
+      std::vector<Ray> rays;
+      std::vector<int> most;
+      const auto point = [&] { return Point3{3 * random.get1() - 1.5f, 3 * random.get1() - 1.5f, 5 * random.get1()}; };
+      for (std::size_t i = 0; i < count; ++i) {
+        rays.push_back(segment(point(), point()));
+        most.push_back(static_cast<int>(random.below(4)));
+      }
+      std::vector<Passage> passages(count);
+      scene.passages(rays, most, passages);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Passage alone = scene.passage(rays[i], most[i]);
+        EXPECT_EQ(passages[i].transmittance, alone.transmittance);
+        EXPECT_EQ(passages[i].probability, alone.probability);
+        EXPECT_EQ(passages[i].crossings, alone.crossings);
+        EXPECT_EQ(passages[i].rays, alone.rays);
+        blocked += is_black(alone.transmittance) ? 1 : 0;
+        crossed += alone.crossings > 0 && !is_black(alone.transmittance) ? 1 : 0;
+      }
+    }
+  EXPECT_GT(blocked, 500);
+  EXPECT_GT(crossed, 500);
 }
 
 TEST(Passage, IsBlockedByWhatIsOpaque) {

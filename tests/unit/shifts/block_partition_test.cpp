@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <vector>
+
 #include "shifts/stencil.h"
 
 namespace gradslc {
@@ -39,6 +42,30 @@ TEST(BlockPartition, EveryPairIsSplitByTheSameShareOfOffsets) {
   }
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x + 1 < image.width; ++x) EXPECT_EQ(together(x, y), block.width - 1);
+}
+
+// The smaller blocks within the larger ones are a partition with the same offset: whole but for the image's border.
+TEST(BlockPartition, SmallerBlocksTileTheLargerOnes) {
+  constexpr Resolution k_image{29, 23}, k_large{12, 8}, k_small{3, 4};
+  for (int step = 0; step < 96; ++step) {
+    const Vec2 u{static_cast<float>(step % 12) / 12 + 0.01f, static_cast<float>(step / 12) / 8 + 0.01f};
+    const BlockPartition partition(k_image, k_large, u);
+    std::map<int, int> columns,
+        rows;  // where small blocks begin, modulo their side, away from the left and upper border
+    std::vector<int> covered(k_image.pixels(), 0);
+    for (std::size_t i = 0; i < partition.size(); ++i)
+      partition.for_each_within(partition.block(i), k_small, [&](const BlockPartition::Block& block) {
+        for (std::size_t k = 0; k < block.size.pixels(); ++k)
+          ++covered[k_image.index(block.first + block.size.pixel(k))];
+        EXPECT_LE(block.size.width, k_small.width);
+        EXPECT_LE(block.size.height, k_small.height);
+        if (block.first.x > 0) ++columns[block.first.x % k_small.width];
+        if (block.first.y > 0) ++rows[block.first.y % k_small.height];
+      });
+    EXPECT_EQ(columns.size(), 1u) << step;
+    EXPECT_EQ(rows.size(), 1u) << step;
+    for (const int count : covered) EXPECT_EQ(count, 1);
+  }
 }
 
 TEST(BlockPartition, LargestRandomNumberIsInRange) {
