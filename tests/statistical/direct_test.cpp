@@ -21,6 +21,7 @@ constexpr Components k_direct{.emission = false, .indirect = false};
 
 using Parameters = std::map<std::string, ParameterValue>;
 
+/// Blocks are small: pixels that share random numbers share rare bright paths, whose tail few runs do not show.
 std::vector<Method> direct_methods(double light_paths) {
   std::vector<Method> methods = {
       {"vpl", "vpl", {{"selection", "power"}, {"samples", 20.0}}},
@@ -28,8 +29,10 @@ std::vector<Method> direct_methods(double light_paths) {
       {"slc, small bound", "slc", {{"vpl/bound", 0.3}, {"cut_size", 4.0}}},
       {"slc tile", "slc", {{"gather", "tile"}, {"tile/candidates", 128.0}}},
       {"gradslc reconnection", "gradslc", {}},
-      {"gradslc random replay", "gradslc", {{"shift", "random_replay"}}},
-      {"gradslc block, tile", "gradslc", {{"shift", "block"}, {"gather", "tile"}, {"tile/size", 8.0}}},
+      {"gradslc random replay", "gradslc", {{"shift", "random_replay"}, {"block/width", 2.0}, {"block/height", 2.0}}},
+      {"gradslc block, tile",
+       "gradslc",
+       {{"shift", "block"}, {"gather", "tile"}, {"tile/size", 8.0}, {"block/width", 2.0}, {"block/height", 2.0}}},
   };
   for (Method& method : methods) {
     method.parameters["vpl/direct"] = true;
