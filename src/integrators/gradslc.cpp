@@ -215,23 +215,23 @@ class GradientStochasticLightcuts final : public Integrator {
     const auto [first, size] = group;
     const SampleStream random = stream(view.slot, view.plan.camera, index(first));
     const GatherEffort effort = view.plan.effort(first);
-    auto& [gatherer, region, receivers, samples, logs, cost] = worker;
+    std::vector<GroupSample>& samples = worker.samples;
     samples.clear();
-    if (view.logged.any()) logs.resize(std::max(logs.size(), size.pixels()));
+    if (view.logged.any()) worker.logs.resize(std::max(worker.logs.size(), size.pixels()));
     for (std::size_t i = 0; i < size.pixels(); ++i) {
       const Pixel pixel = first + size.pixel(i);
-      PathLog* const log = view.logged.any() ? view.logged.begin(pixel, logs[i]) : nullptr;
-      if (log) log->append(region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
+      PathLog* const log = view.logged.any() ? view.logged.begin(pixel, worker.logs[i]) : nullptr;
+      if (log) log->append(worker.region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
       samples.push_back(begin_sample(worker, pixel, random, log));
     }
     if (shift_ == Shift::block)
-      gatherer.gather_together(samples, effort, random);
+      worker.gatherer.gather_together(samples, effort, random);
     else
-      for (GroupSample& sample : samples) gatherer.gather_alone(sample, effort);
+      for (GroupSample& sample : samples) worker.gatherer.gather_alone(sample, effort);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       GroupSample& sample = samples[i];
       const Pixel pixel = first + size.pixel(i);
-      cost.base_rays += sample.context.rays;
+      worker.cost.base_rays += sample.context.rays;
       note(view, pixel, sample);
       record(view.half, pixel, sample.radiance, sample.context);
     }

@@ -1,5 +1,8 @@
 #include "integrators/group_gather.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gradslc {
 
 GroupGatherer::GroupGatherer(const Scene& scene, const LightTree& tree, const GroupGatherSettings& settings)
@@ -76,11 +79,49 @@ void GroupGatherer::choose_by_descent(const SampleStream& random) {
     log_selection(member.sample->context.log, selector_.last_cost(), members_.size());
 }
 
+bool GroupGatherer::members_are_flat() const {
+  constexpr float k_thickness = 1e-4f, k_same_normal = 1e-12f;  // over the extent; squared difference
+  const CandidateReceiver& first = members_.front().receiver;
+  float extent2 = 0, height = 0;
+  for (const Member& member : members_) {
+    const CandidateReceiver& r = member.receiver;
+    if (!r.lambert || r.receiver.transmits || r.least_k != first.least_k || r.most_k != first.most_k) return false;
+    if (length_squared(as_vec(r.receiver.normal) - as_vec(first.receiver.normal)) > k_same_normal) return false;
+    const Vec3 d = r.receiver.position - first.receiver.position;
+    extent2 = std::max(extent2, length_squared(d));
+    height = std::max(height, std::abs(dot(d, first.receiver.normal)));
+  }
+  return height * height <= k_thickness * k_thickness * extent2;
+}
+
+void GroupGatherer::find_law_receivers() {
+  constexpr std::size_t k_corners = 4;
+  law_receivers_.clear();
+  if (members_.size() <= k_corners || !members_are_flat()) {
+    for (const Member& member : members_) law_receivers_.push_back(member.receiver);
+    return;
+  }
+  const CandidateReceiver& first = members_.front().receiver;
+  const Frame frame = frame_from_normal(first.receiver.normal);
+  Vec2 lower, upper;
+  Rgb diffuse;
+  for (const Member& member : members_) {
+    const Vec3 d = frame.to_local(member.receiver.receiver.position - first.receiver.position);
+    lower = {std::min(lower.x, d.x), std::min(lower.y, d.y)};
+    upper = {std::max(upper.x, d.x), std::max(upper.y, d.y)};
+    diffuse += member.receiver.diffuse / static_cast<float>(members_.size());
+  }
+  for (const Vec2 corner : {lower, upper, Vec2{lower.x, upper.y}, Vec2{upper.x, lower.y}}) {
+    CandidateReceiver& receiver = law_receivers_.emplace_back(first);
+    receiver.diffuse = diffuse;
+    receiver.receiver.position = first.receiver.position + frame.to_world({corner.x, corner.y, 0});
+  }
+}
+
 void GroupGatherer::choose_candidates(int samples, const SampleStream& random) {
-  candidate_receivers_.clear();
-  for (const Member& member : members_) candidate_receivers_.push_back(member.receiver);
-  candidates_ = &tile_->share(members_.size());
-  candidates_->evaluate(candidate_receivers_, settings_.gather.bound);
+  find_law_receivers();
+  candidates_ = &tile_->share(law_receivers_.size());
+  candidates_->evaluate(law_receivers_, settings_.gather.bound);
   candidates_->choose(samples, random.get1_double(Use::candidate_choice), choice_);
   draws_.clear();
   for (const CandidateDraw& draw : choice_)

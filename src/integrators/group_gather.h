@@ -71,6 +71,10 @@ class GroupGatherer {
   void gather_without_vpls(GroupSample& sample, const GatherEffort& effort);
   void choose_by_descent(const SampleStream& random);
   void choose_candidates(int samples, const SampleStream& random);
+  /// Receivers whose targets sum up to the group's law: its members or, where these lie in a plane, four corners of a
+  /// rectangle around them. A VPL that lights a point of a plane lights one of any corners around it.
+  void find_law_receivers();
+  bool members_are_flat() const;
   /// Connects all members that it may light with one VPL; their shadow rays are one packet.
   void connect(const Draw& draw);
   Rgb unshadowed(const Member& member, const Draw& draw) const;
@@ -84,7 +88,7 @@ class GroupGatherer {
   VertexGather behind_;
   CandidateSet* candidates_ = nullptr;
   std::vector<Member> members_;
-  std::vector<CandidateReceiver> candidate_receivers_;
+  std::vector<CandidateReceiver> law_receivers_;
   std::vector<Receiver> receivers_;
   std::vector<CandidateDraw> choice_;
   std::vector<Draw> draws_;
