@@ -16,6 +16,7 @@ void Largest::raise(const Largest& other) {
 
 void DebugImage::Accumulator::merge(const Accumulator& other) {
   cut_size += other.cut_size, node_evaluations += other.node_evaluations, rays += other.rays;
+  failed_shifts += other.failed_shifts;
   samples += other.samples;
   contribution.raise(other.contribution);
   sample.raise(other.sample);
@@ -25,6 +26,7 @@ void DebugImage::add(Pixel pixel, const DebugSample& sample) {
   pixels_[pixel].merge({static_cast<double>(sample.cut_size),
                         static_cast<double>(sample.node_evaluations),
                         static_cast<double>(sample.rays),
+                        static_cast<double>(sample.failed_shifts),
                         1,
                         sample.contribution,
                         {luminance(sample.value), sample.pass, std::nullopt}});

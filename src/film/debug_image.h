@@ -28,6 +28,7 @@ struct DebugSample {
   float cut_size = 0;          ///< clusters or VPLs that stood for all VPLs
   float node_evaluations = 0;  ///< of the light tree; of a group's, the pixel's share
   std::uint64_t rays = 0;
+  std::uint32_t failed_shifts = 0;  ///< offset paths that ended before the base path
   Largest contribution;
   Rgb value;
 };
@@ -46,7 +47,7 @@ class DebugImage {
 
   /// One pixel's samples: sums and largest.
   struct Accumulator {
-    double cut_size = 0, node_evaluations = 0, rays = 0;
+    double cut_size = 0, node_evaluations = 0, rays = 0, failed_shifts = 0;
     std::uint32_t samples = 0;  ///< those that were not finite included
     Largest contribution, sample;
 

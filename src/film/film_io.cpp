@@ -1,6 +1,7 @@
 #include "film/film_io.h"
 
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "core/parallel.h"
@@ -60,6 +61,7 @@ constexpr DebugLayer k_debug_layers[] = {
     {"debug_cut_size", [](const DebugPixel& p) { return static_cast<float>(p.cut_size / p.samples); }},
     {"debug_node_evaluations", [](const DebugPixel& p) { return static_cast<float>(p.node_evaluations / p.samples); }},
     {"debug_rays", [](const DebugPixel& p) { return static_cast<float>(p.rays / p.samples); }},
+    {"debug_failed_shifts", [](const DebugPixel& p) { return static_cast<float>(p.failed_shifts / p.samples); }},
     {"debug_contribution", [](const DebugPixel& p) { return p.contribution.luminance; }},
     {"debug_contribution_part", [](const DebugPixel& p) { return part_index(p.contribution); }},
     {"debug_contribution_pass", [](const DebugPixel& p) { return static_cast<float>(p.contribution.pass); }},
@@ -73,6 +75,21 @@ Image<float> debug_layer(const DebugImage& debug, const DebugLayer& layer) {
   for (std::size_t i = 0; i < image.size(); ++i)
     if (debug[i].samples > 0) image[i] = layer.value(debug[i]);
   return image;
+}
+
+/// Variance of one sample of a gradient over that of one of the primal, both summed over the channels: where it is well
+/// below 1, gradients tell more than the pixels themselves. 0 where either is unknown, or the primal's is 0.
+Image<float> gradient_variance_ratio(const MomentLayers& gradient, const MomentLayers& primal) {
+  const auto of_one = [](const MomentLayers& moment, std::size_t i) {
+    const Rgb variance = moment.variance[i];
+    return (variance.r + variance.g + variance.b) * moment.count[i];
+  };
+  Image<float> ratio(gradient.count.resolution());
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    const float value = of_one(gradient, i) / of_one(primal, i);
+    if (std::isfinite(value)) ratio[i] = value;
+  }
+  return ratio;
 }
 
 }  // namespace
@@ -92,12 +109,14 @@ MomentLayers moment_layers(const MomentImage& a, const MomentImage& b) {
 
 std::map<std::string, ExrLayer> film_layers(const Film& film) {
   std::map<std::string, ExrLayer> layers;
+  const MomentLayers primal = moment_layers(film.half(0).primal, film.half(1).primal);
   for (const NamedMoment& moment : k_moments) {
     const MomentImage &a = film.half(0).*moment.image, &b = film.half(1).*moment.image;
     const bool is_primal = moment.image == &FilmHalf::primal;
     if (!is_primal && !film.layers().gradients) continue;
     const std::string name = moment.name;
-    MomentLayers both = moment_layers(a, b);
+    MomentLayers both = is_primal ? primal : moment_layers(a, b);
+    if (!is_primal && film.layers().debug) layers["debug_" + name + "_ratio"] = gradient_variance_ratio(both, primal);
     layers[name] = std::move(both.mean);
     layers[is_primal ? "variance" : name + "_variance"] = std::move(both.variance);
     add_half(name, "a", a, layers);

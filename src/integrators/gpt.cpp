@@ -124,6 +124,7 @@ class GradientPathTracer final : public Integrator {
       for (std::size_t j = 0; j < count; ++j) {
         (*differences)[neighbours[j]] = offsets[j].difference();
         cost.count(offsets[j]);
+        if (context.log && offsets[j].failure()) context.log->add_failed_shift();
       }
     } else {
       radiance = trace<Throughput>(context, position);

@@ -138,7 +138,15 @@ class GradientStochasticLightcuts final : public Integrator {
   PathContext context(const SampleStream& random) const { return {*scene_, settings_, groups_.lobes, random}; }
   std::uint64_t index(Pixel pixel) const { return scene_->camera().resolution().index(pixel); }
 
-  /// Groups lie within tiles, whose borders move from pass to pass.
+  /// Where tiles and groups begin stays for some passes of a half: then a pixel's samples in these are one aligned run
+  /// of one group's sequence, and stratified.
+  Vec2 group_offset(const PassSlot& slot, SeedPurpose purpose) const {
+    constexpr std::uint32_t k_passes_per_offset = 4;
+    PassSlot run = slot;
+    run.sample /= k_passes_per_offset;
+    return stream(run, purpose, k_image_stream).get2(Use::group_offset);
+  }
+  /// Groups lie within tiles, whose borders move.
   Resolution tile_size() const {
     if (shift_ == Shift::reconnection || (shift_ == Shift::random_replay && groups_.tile))
       return {tile_.size, tile_.size};
@@ -150,8 +158,7 @@ class GradientStochasticLightcuts final : public Integrator {
     const PassSlot slot = slot_of(pass);
     const LightTree& tree = source_.vpls_of(slot);
     const LoggedSamples logged = logged_samples(slot, film);
-    const SampleStream image_stream = stream(slot, plan.camera, k_image_stream);
-    const BlockPartition tiles(film.resolution(), tile_size(), image_stream.get2(Use::group_offset));
+    const BlockPartition tiles(film.resolution(), tile_size(), group_offset(slot, plan.camera));
     const PassView view{slot, plan, logged, tiles, film.half(slot.half), film.layers().gradients};
     if (shift_ == Shift::reconnection) stencils_.begin(film.resolution(), stencil_, logged.any());
     std::mutex cost_mutex;

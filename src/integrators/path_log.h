@@ -112,6 +112,7 @@ class PathLog {
   /// What choosing VPLs has cost.
   void add_selection(float cut_size, float node_evaluations);
   void add_rays(std::uint64_t rays) { sample_.rays += rays; }
+  void add_failed_shift() { ++sample_.failed_shifts; }
   /// All of another log, its light and cut size times `scale`.
   void append(const PathLog& other, float scale);
   /// Ends the sample, whose value is what the film gets.

@@ -16,11 +16,9 @@ class Weighted final : public Reconstruction {
  public:
   void describe(ParameterVisitor& visitor) override {
     visitor.real("lambda", options_.lambda, {1e-6, 1e4}, "",
-                 "weight of the primal against the gradients; 1 takes the smoothed variances at their word");
-    visitor.integer("primal_radius", options_.primal_radius, {0, 32}, "pixels",
-                    "variances of the primal are averaged over (2 radius + 1)^2 pixels");
-    visitor.integer("gradient_radius", options_.gradient_radius, {0, 32}, "pixels",
-                    "the same for dx and dy; 0 has least error and most bias without cross");
+                 "weight of the primal against the gradients; 1 takes the variances at their word");
+    visitor.integer("radius", options_.radius, {0, 32}, "pixels",
+                    "a variance counts as no less than half the mean over (2 radius + 1)^2 pixels");
     visitor.boolean("cross", cross_,
                     "weights of each half of the passes from the other half (no bias seen; needs some 20 passes); "
                     "false: from the same passes, which rejects outliers and darkens slightly (biased)");

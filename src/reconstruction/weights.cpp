@@ -96,15 +96,26 @@ std::optional<double> mean_of(const Image<KnownSum>& values) {
   return total.sum / total.known;
 }
 
-/// factor count / (v + floor), times `unit` to stay within float's range; 0 without samples.
-Image<float> inverse_variances(const Term& weighted, const Image<KnownSum>& boxes, double mean, double floor,
-                               double factor) {
+/// The variances of one sample of a term, and what supports them.
+struct SupportedVariances {
+  Image<KnownSum> own, boxes;
+  std::optional<double> mean;
+
+  double at(int x, int y) const {
+    const KnownSum &variance = own(x, y), &box = boxes(x, y);
+    if (box.known == 0) return *mean;
+    const double box_mean = box.sum / box.known;
+    return variance.known > 0 ? std::max(variance.sum, box_mean / 2) : box_mean;
+  }
+};
+
+/// factor count / (v + floor); 0 without samples.
+Image<float> inverse_variances(const Term& weighted, const SupportedVariances& variances, double floor, double factor) {
   Image<float> weights(weighted.count->resolution());
   for_each_row(weighted.used.height, [&](int y) {
     for (int x = 0; x < weighted.used.width; ++x) {
-      const KnownSum& box = boxes(x, y);
-      const double variance = box.known > 0 ? box.sum / box.known : mean;
-      weights(x, y) = static_cast<float>(factor * static_cast<double>((*weighted.count)(x, y)) / (variance + floor));
+      const auto count = static_cast<double>((*weighted.count)(x, y));
+      weights(x, y) = static_cast<float>(factor * count / (variances.at(x, y) + floor));
     }
   });
   return weights;
@@ -128,27 +139,23 @@ PoissonWeights count_weights(const ReconstructionBuffers& buffers, double alpha)
 PoissonWeights variance_weights(const ReconstructionBuffers& weighted, const ReconstructionBuffers& source,
                                 const VarianceWeightOptions& options) {
   const Terms sources = terms_of(source), targets = terms_of(weighted);
-  struct Smoothed {
-    Image<KnownSum> boxes;
-    std::optional<double> mean;
-  };
-  const auto smoothed = [](const Term& term, int radius) {
-    const Image<KnownSum> values = sample_variances(term);
+  const auto supported = [&](const Term& term) {
+    Image<KnownSum> own = sample_variances(term);
     // A term without pixels (the image is one pixel wide or high) needs no variance.
-    return Smoothed{box_sums(values, radius), values.empty() ? 0.0 : mean_of(values)};
+    const std::optional<double> mean = own.empty() ? 0.0 : mean_of(own);
+    Image<KnownSum> boxes = box_sums(own, options.radius);
+    return SupportedVariances{std::move(own), std::move(boxes), mean};
   };
-  const Smoothed primal = smoothed(sources.primal, options.primal_radius);
-  const Smoothed dx = smoothed(sources.dx, options.gradient_radius);
-  const Smoothed dy = smoothed(sources.dy, options.gradient_radius);
+  const SupportedVariances primal = supported(sources.primal), dx = supported(sources.dx), dy = supported(sources.dy);
   if (!primal.mean || !dx.mean || !dy.mean) return count_weights(weighted, k_default_alpha);
   const double largest_mean = std::max({*primal.mean, *dx.mean, *dy.mean});
   const double counts = std::max({largest_count(targets.primal), largest_count(targets.dx), largest_count(targets.dy)});
   if (largest_mean == 0 || counts == 0) return count_weights(weighted, k_default_alpha);
 
   const double unit = largest_mean / counts;  // weights of about 1, within float's range for images of any scale
-  const auto weights = [&](const Term& target, const Smoothed& variance, double factor) {
-    const double floor = std::max(k_floor * *variance.mean, k_lowest_floor * largest_mean);
-    return inverse_variances(target, variance.boxes, *variance.mean, floor, factor * unit);
+  const auto weights = [&](const Term& target, const SupportedVariances& variances, double factor) {
+    const double floor = std::max(k_floor * *variances.mean, k_lowest_floor * largest_mean);
+    return inverse_variances(target, variances, floor, factor * unit);
   };
   return {weights(targets.primal, primal, options.lambda), weights(targets.dx, dx, 1), weights(targets.dy, dy, 1)};
 }

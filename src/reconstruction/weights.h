@@ -14,15 +14,16 @@ constexpr double k_default_alpha = 0.2;
 PoissonWeights count_weights(const ReconstructionBuffers& buffers, double alpha);
 
 struct VarianceWeightOptions {
-  double lambda = 0.5;    ///< weight of the primal against the gradients
-  int primal_radius = 3;  ///< variances are means over (2 radius + 1)^2 pixels; 0: not smoothed
-  int gradient_radius = 1;
+  double lambda = 1;  ///< weight of the primal against the gradients
+  int radius = 1;     ///< of the box of (2 radius + 1)^2 pixels whose mean supports a pixel's variance; 0: none
 };
 
 /// Inverse variances of the means in `weighted`, from the variances in `source` (the same buffers, or another half's):
 ///   w = count / (v + floor), the primal's times lambda, up to a common factor,
-/// v: variance of one sample, that is `source`'s variance of the mean times its count, averaged over channels and over
-/// the box's pixels where it is known; where it is known for none, its mean over the image, so that the count decides.
+/// v: variance of one sample, that is `source`'s variance of the mean times its count, averaged over channels; but no
+/// less than half the mean over the box's pixels where it is known, so that one that few samples make too small by
+/// chance gets no great weight, while edges, where gradients are noisy, stay one pixel wide. Where it is unknown, the
+/// box's mean; where that is, too, the mean over the image, so that the count decides.
 /// floor: 1e-3 of the term's mean v, and no less than 1e-6 of the largest mean of the three terms.
 /// Where a term's variance is known nowhere (fewer than two sets of samples), or no term has any variance, the weights
 /// are count_weights(weighted, k_default_alpha).

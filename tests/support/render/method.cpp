@@ -78,6 +78,51 @@ std::vector<double> region_means(const Regions& regions, const std::function<Rgb
   return sums;
 }
 
+/// Recorded differences of one image over regions, run by run. Which pairs a run records is random, each pair with the
+/// same probability: so the expectation of a region's differences is that of its sum over that of its count.
+class DifferenceSums {
+ public:
+  explicit DifferenceSums(std::span<const Regions> partitions) : partitions_(partitions) {}
+
+  void add(Quantity quantity, const MomentImage& image) {
+    std::vector<std::vector<Sum>>& run = runs_[quantity].emplace_back();
+    for (const Regions& regions : partitions_) {
+      std::vector<Sum>& sums = run.emplace_back(regions.count);
+      for (std::size_t i = 0; i < regions.of.size(); ++i) {
+        const Pixel pixel = regions.of.resolution().pixel(i);
+        const double count = image.count(pixel);
+        sums[regions.of[i]].value += static_cast<double>(luminance(image.mean(pixel))) * count;
+        sums[regions.of[i]].count += count;
+      }
+    }
+  }
+  /// One value per run and region: their mean is the ratio over all runs, their scatter that of the ratio.
+  void finish(std::vector<BlockMoments>& results) const {
+    for (const auto& [quantity, runs] : runs_)
+      for (std::size_t k = 0; k < partitions_.size(); ++k) {
+        std::vector<Moments>& blocks = results[k].blocks[quantity];
+        blocks.resize(partitions_[k].count);
+        for (std::size_t r = 0; r < blocks.size(); ++r) {
+          Sum all;
+          for (const auto& run : runs) all.value += run[k][r].value, all.count += run[k][r].count;
+          const double ratio = all.count > 0 ? all.value / all.count : 0;
+          const double mean_count = all.count / static_cast<double>(runs.size());
+          for (const auto& run : runs) {
+            const auto [value, count] = run[k][r];
+            blocks[r].add(all.count > 0 ? ratio + (value - ratio * count) / mean_count : 0);
+          }
+        }
+      }
+  }
+
+ private:
+  struct Sum {
+    double value = 0, count = 0;
+  };
+  std::span<const Regions> partitions_;
+  std::map<Quantity, std::vector<std::vector<std::vector<Sum>>>> runs_;  // by run, partition and region
+};
+
 }  // namespace
 
 std::unique_ptr<Integrator> Method::make() const {
@@ -126,6 +171,7 @@ std::vector<BlockMoments> region_moments(const Method& method, const Scene& scen
       for (std::size_t i = 0; i < means.size(); ++i) blocks[i].add(means[i]);
     }
   };
+  DifferenceSums differences(partitions);
   for (int run = 0; run < options.runs; ++run) {
     RenderSettings seeded = settings;
     seeded.seed = hash_combine(options.seed, static_cast<std::uint64_t>(run));
@@ -153,10 +199,8 @@ std::vector<BlockMoments> region_moments(const Method& method, const Scene& scen
     if (integrator->traits().gradients) {
       MomentImage dx = film.half(0).dx, dy = film.half(0).dy;
       dx.merge(film.half(1).dx), dy.merge(film.half(1).dy);
-      add(
-          Quantity::dx, [&](Pixel p) { return dx.mean(p); }, inside({1, 0}));
-      add(
-          Quantity::dy, [&](Pixel p) { return dy.mean(p); }, inside({0, 1}));
+      differences.add(Quantity::dx, dx);
+      differences.add(Quantity::dy, dy);
     } else {
       add(
           Quantity::dx,
@@ -172,6 +216,7 @@ std::vector<BlockMoments> region_moments(const Method& method, const Scene& scen
           inside({0, 1}));
     }
   }
+  differences.finish(results);
   return results;
 }
 

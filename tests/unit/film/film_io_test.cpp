@@ -26,6 +26,7 @@ Film sample_film(FilmLayers layers) {
       if (layers.parts) film.half(h).part_sums[static_cast<std::size_t>(Part::specular)](1, 0) += value;
       if (layers.debug) {
         DebugSample sample{.pass = static_cast<std::uint32_t>(2 * set + h), .cut_size = 2, .rays = 5};
+        sample.failed_shifts = 3;
         sample.node_evaluations = value.r;
         sample.contribution = {10 - value.r, sample.pass, Part::specular};
         sample.value = value;
@@ -63,16 +64,21 @@ TEST(FilmLayersOfARun, AreNamedByWhatTheFilmRecorded) {
   }
   full.insert({"direct", "vpl", "compensation", "specular", "prefix"});
   EXPECT_EQ(names_of(film_layers(sample_film({.gradients = true, .parts = true}))), full);
-  full.insert({"debug_cut_size", "debug_node_evaluations", "debug_rays", "debug_contribution",
-               "debug_contribution_part", "debug_contribution_pass", "debug_sample", "debug_sample_pass"});
+  full.insert({"debug_cut_size", "debug_node_evaluations", "debug_rays", "debug_failed_shifts", "debug_contribution",
+               "debug_contribution_part", "debug_contribution_pass", "debug_sample", "debug_sample_pass",
+               "debug_dx_ratio", "debug_dy_ratio"});
   EXPECT_EQ(names_of(film_layers(sample_film({.gradients = true, .parts = true, .debug = true}))), full);
 }
 
 TEST(FilmLayersOfARun, HoldDebugImagesOfBothHalves) {
-  const auto layers = film_layers(sample_film({.debug = true}));
+  const auto layers = film_layers(sample_film({.gradients = true, .debug = true}));
   EXPECT_EQ(grey_at(layers, "debug_cut_size"), 2);
   EXPECT_EQ(grey_at(layers, "debug_node_evaluations"), 4);
   EXPECT_EQ(grey_at(layers, "debug_rays"), 5);
+  EXPECT_EQ(grey_at(layers, "debug_failed_shifts"), 3);
+  EXPECT_FLOAT_EQ(grey_at(layers, "debug_dx_ratio"), 4);
+  EXPECT_FLOAT_EQ(grey_at(layers, "debug_dy_ratio"), 9);
+  EXPECT_EQ(grey_at(layers, "debug_dx_ratio", 0), 0) << "no samples";
   EXPECT_FLOAT_EQ(grey_at(layers, "debug_contribution"), 9);
   EXPECT_EQ(grey_at(layers, "debug_contribution_part"), 3);
   EXPECT_EQ(grey_at(layers, "debug_contribution_pass"), 0);

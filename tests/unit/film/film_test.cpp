@@ -140,6 +140,7 @@ DebugSample random_debug_sample(std::mt19937& random, int pass) {
   const auto number = [&](unsigned most) { return static_cast<float>(random() % (most + 1)); };
   DebugSample sample{.pass = static_cast<std::uint32_t>(pass), .value = Rgb(number(2))};
   sample.cut_size = number(10), sample.node_evaluations = number(100), sample.rays = random() % 10;
+  sample.failed_shifts = random() % 5;
   sample.contribution = {number(2), pass, static_cast<Part>(random() % k_part_count)};
   return sample;
 }

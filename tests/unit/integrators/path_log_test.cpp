@@ -100,20 +100,24 @@ TEST(DebugImages, AccountForAllRaysAndNodes) {
   for (const Method& method : logged_methods()) {
     const Rendered rendered = render(method, scene, {.debug = true}, 0, 6);
     const DebugImage debug = rendered.film.debug();
-    double rays = 0, nodes = 0, cut_size = 0;
+    double rays = 0, nodes = 0, cut_size = 0, failed_shifts = 0;
     for (std::size_t i = 0; i < scene.camera().resolution().pixels(); ++i) {
       EXPECT_EQ(debug[i].samples, 6u) << method.label;
       rays += debug[i].rays, nodes += debug[i].node_evaluations, cut_size += debug[i].cut_size;
+      failed_shifts += debug[i].failed_shifts;
     }
     const IntegratorStatistics statistics = rendered.integrator->statistics();
-    double light_rays = 0, expected_nodes = 0;
+    double light_rays = 0, expected_nodes = 0, expected_failures = 0;
     for (const IntegratorStatistics::Counter& counter : statistics.counters) {
       if (counter.name == "light_rays") light_rays = counter.value;
       if (counter.name == "node_evaluations") expected_nodes = counter.value;
+      if (counter.name.starts_with("failed_shifts_")) expected_failures += counter.value;
     }
     EXPECT_EQ(rays + light_rays, static_cast<double>(statistics.rays)) << method.label;
     EXPECT_NEAR(nodes, expected_nodes, 1e-5 * expected_nodes) << method.label;
     EXPECT_EQ(cut_size > 0, has_vpls(method)) << method.label;
+    EXPECT_EQ(failed_shifts, expected_failures) << method.label;
+    EXPECT_EQ(failed_shifts > 0, method.label == "gpt") << method.label;
   }
 }
 

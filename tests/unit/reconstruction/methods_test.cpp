@@ -261,8 +261,8 @@ TEST(Weighted, BeatsL2AndThePrimalWhereNoiseIsUneven) {
       EXPECT_TRUE(result.statistics.converged);
       return square_error(result.image, truth);
     };
-    cross += error("weighted", {{"primal_radius", 1}, {"gradient_radius", 0}});
-    own += error("weighted", {{"primal_radius", 1}, {"gradient_radius", 0}, {"cross", 0}});
+    cross += error("weighted", {});
+    own += error("weighted", {{"cross", 0}});
     l2 += error("l2", {});
     primal += error("none", {});
   }
@@ -294,8 +294,8 @@ double mean_error_z(const std::map<std::string, double>& parameters) {
 
 /// False alarms: 0.1 % (|z| > 3.29). The control shows that the noise is such that own weights darken.
 TEST(Weighted, CrossShowsNoBiasWhereOwnWeightsDarken) {
-  EXPECT_LT(std::abs(mean_error_z({{"cross", 1}, {"primal_radius", 0}})), 3.29);
-  EXPECT_LT(mean_error_z({{"cross", 0}, {"primal_radius", 0}}), -8);
+  EXPECT_LT(std::abs(mean_error_z({{"cross", 1}, {"radius", 0}})), 3.29);
+  EXPECT_LT(mean_error_z({{"cross", 0}, {"radius", 0}}), -8);
 }
 
 TEST(Weighted, CrossAveragesHalvesByCounts) {

@@ -60,34 +60,31 @@ TEST(VarianceWeights, AreInverseVariancesTimesLambda) {
 TEST(VarianceWeights, AreAveragedOverChannels) {
   ReconstructionBuffers buffers = uniform_buffers(10, 1, 1, 1);
   for (Rgb& variance : buffers.dx_variance) variance = {3, 4, 5};
-  const PoissonWeights weights = variance_weights(buffers, buffers, {.lambda = 1});
+  const PoissonWeights weights = variance_weights(buffers, buffers, {});
   EXPECT_FLOAT_EQ(weights.primal(0, 0) / weights.dx(0, 0), 4);
 }
 
 /// One pixel's variance differs: its weight, and how far it reaches, shows the box and the floor.
-TEST(VarianceWeights, AreSmoothedOverBoxes) {
+TEST(VarianceWeights, AreSupportedByHalfTheMeanOfBoxes) {
   ReconstructionBuffers buffers = uniform_buffers(1, 1, 1, 1);
-  buffers.primal_variance(4, 4) = buffers.dx_variance(4, 4) = Rgb(50);
-  const PoissonWeights weights = variance_weights(buffers, buffers, {.lambda = 1, .primal_radius = 2});
-  const float reference = weights.dy(0, 0) * 1.001f;  // 1 / variance: dy has variance 1 and floor 0.001
-  const auto primal_variance = [&](int x, int y) { return reference / weights.primal(x, y) - 0.001f * (72 + 49) / 72; };
-  EXPECT_NEAR(primal_variance(4, 4), (24 + 50) / 25.0f, 1e-4f);
-  EXPECT_NEAR(primal_variance(2, 2), (24 + 50) / 25.0f, 1e-4f);
-  EXPECT_NEAR(primal_variance(1, 4), 1, 1e-4f);
-  EXPECT_NEAR(primal_variance(4, 7), 1, 1e-4f);
-  const auto dx_variance = [&](int x, int y) { return reference / weights.dx(x, y) - 0.001f * (64 + 49) / 64; };
-  EXPECT_NEAR(dx_variance(3, 5), (8 + 50) / 9.0f, 1e-4f);
-  EXPECT_NEAR(dx_variance(2, 5), 1, 1e-4f);
-  const PoissonWeights rough = variance_weights(buffers, buffers, {.lambda = 1, .gradient_radius = 0});
-  EXPECT_NEAR(reference / rough.dx(4, 4), 50, 0.1f);
-  EXPECT_NEAR(reference / rough.dx(3, 4), 1, 0.01f);
+  buffers.dx_variance(4, 4) = Rgb(50);
+  const float reference = variance_weights(buffers, buffers, {}).dy(0, 0) * 1.001f;  // variance 1 and floor 0.001
+  const auto dx_variance = [&](int radius, int x, int y) {
+    return reference / variance_weights(buffers, buffers, {.radius = radius}).dx(x, y) - 0.001f * (64 + 49) / 64;
+  };
+  EXPECT_NEAR(dx_variance(1, 4, 4), 50, 0.1f) << "its own is more than half of (8 + 50) / 9";
+  EXPECT_NEAR(dx_variance(1, 3, 5), (8 + 50) / 18.0f, 1e-4f);
+  EXPECT_NEAR(dx_variance(1, 2, 5), 1, 1e-4f) << "its own is more than half of 1";
+  EXPECT_NEAR(dx_variance(2, 2, 5), (24 + 50) / 50.0f, 1e-4f);
+  EXPECT_NEAR(dx_variance(0, 4, 4), 50, 0.1f);
+  EXPECT_NEAR(dx_variance(0, 3, 4), 1, 1e-4f);
 }
 
 TEST(VarianceWeights, BoxesAtTheBorderHaveOnlyTheImagesPixels) {
   ReconstructionBuffers buffers = uniform_buffers(1, 1, 1, 1);
-  buffers.primal_variance(0, 0) = Rgb(5);
-  const PoissonWeights weights = variance_weights(buffers, buffers, {.lambda = 1, .primal_radius = 1});
-  EXPECT_NEAR(weights.dy(5, 5) / weights.primal(0, 0), (3 + 5) / 4.0f, 0.01f);
+  buffers.primal_variance(0, 0) = Rgb(9);
+  const PoissonWeights weights = variance_weights(buffers, buffers, {});
+  EXPECT_NEAR(weights.dy(5, 5) / weights.primal(1, 0), (5 + 9) / 12.0f, 0.01f);
 }
 
 TEST(VarianceWeights, UnknownVariancesTakeThoseOfTheBoxOrTheMean) {
@@ -95,8 +92,8 @@ TEST(VarianceWeights, UnknownVariancesTakeThoseOfTheBoxOrTheMean) {
   buffers.dx_variance(4, 4) = Rgb(k_infinity);
   buffers.dx_count(4, 4) = 1;
   const PoissonWeights boxed = variance_weights(buffers, buffers, {});
-  EXPECT_FLOAT_EQ(boxed.dx(4, 4), boxed.dx(0, 0) / 2) << "the neighbours' variance of one sample, half the samples";
-  const PoissonWeights rough = variance_weights(buffers, buffers, {.gradient_radius = 0});
+  EXPECT_FLOAT_EQ(boxed.dx(4, 4), boxed.dx(0, 0) / 2) << "the box's variance of one sample, half the samples";
+  const PoissonWeights rough = variance_weights(buffers, buffers, {.radius = 0});
   EXPECT_FLOAT_EQ(rough.dx(4, 4), rough.dx(0, 0) / 2) << "the image's";
 }
 
@@ -105,7 +102,7 @@ TEST(VarianceWeights, ComeFromTheSourceAndCountsFromTheWeighted) {
   ReconstructionBuffers weighted = uniform_buffers(10, 99, k_infinity, 5);
   weighted.dx_count(3, 3) = 20;
   weighted.primal_count(3, 3) = 0;
-  const PoissonWeights weights = variance_weights(weighted, source, {.lambda = 1});
+  const PoissonWeights weights = variance_weights(weighted, source, {});
   EXPECT_FLOAT_EQ(weights.dy(0, 0) / weights.primal(0, 0), 4);
   EXPECT_FLOAT_EQ(weights.dx(3, 3) / weights.dx(0, 0), 2);
   EXPECT_EQ(weights.primal(3, 3), 0);
@@ -125,7 +122,7 @@ TEST(VarianceWeights, FallBackToCountsWhereNothingIsKnown) {
 
 TEST(VarianceWeights, AreFiniteForATermWithoutNoise) {
   const ReconstructionBuffers buffers = uniform_buffers(10, 1, 0, 0);
-  const PoissonWeights weights = variance_weights(buffers, buffers, {.lambda = 1});
+  const PoissonWeights weights = variance_weights(buffers, buffers, {});
   EXPECT_NEAR(weights.dx(0, 0) / weights.primal(0, 0), 1.001e6f, 1e3f);
   EXPECT_EQ(weights.dx(8, 0), 0) << "not used";
 }
@@ -137,7 +134,7 @@ TEST(VarianceWeights, ImagesOfOneColumnNeedNoDx) {
     buffers.primal_variance[i] = Rgb(2);
     buffers.dy_variance[i] = Rgb(1);
   }
-  const PoissonWeights weights = variance_weights(buffers, buffers, {.lambda = 1});
+  const PoissonWeights weights = variance_weights(buffers, buffers, {});
   EXPECT_FLOAT_EQ(weights.dy[2] / weights.primal[2], 2);
 }
 
