@@ -37,18 +37,32 @@ void add_trait_flags(ResultRow& row, const IntegratorTraits& traits) {
   if (traits.one_set) row.flags.push_back("one_set");
 }
 
-std::vector<MethodRun> make_runs(const Comparison& comparison, const Makers& makers) {
-  const Experiment& experiment = comparison.experiment;
+/// What renders, and the methods of the experiment that its reconstructions are.
+struct Rendering {
   std::vector<MethodRun> runs;
-  runs.reserve(experiment.methods.size());
-  for (const MethodPlan& method : experiment.methods) {
-    MethodRun::Plan plan{method.name, comparison.settings, experiment.budget,
+  std::vector<std::vector<std::size_t>> methods;  ///< by run and reconstruction
+};
+
+Rendering make_rendering(const Comparison& comparison, const Makers& makers) {
+  const Experiment& experiment = comparison.experiment;
+  Rendering rendering;
+  for (const MethodPlan& leader : experiment.methods) {
+    if (!leader.render_of.empty()) continue;
+    MethodRun::Reconstructions reconstructions;
+    std::vector<std::size_t>& methods = rendering.methods.emplace_back();
+    for (std::size_t i = 0; i < experiment.methods.size(); ++i) {
+      const MethodPlan& method = experiment.methods[i];
+      if (method.name != leader.name && method.render_of != leader.name) continue;
+      methods.push_back(i);
+      reconstructions.push_back(makers.reconstruction(method));
+    }
+    MethodRun::Plan plan{leader.name, comparison.settings, experiment.budget,
                          FilmLayers{.parts = experiment.parts, .debug = experiment.debug},
                          curve_targets(experiment.budget)};
-    runs.emplace_back(std::move(plan), makers.integrator(method), makers.reconstruction(method), comparison.scene,
-                      makers.clock);
+    rendering.runs.emplace_back(std::move(plan), makers.integrator(leader), std::move(reconstructions),
+                                comparison.scene, makers.clock);
   }
-  return runs;
+  return rendering;
 }
 
 }  // namespace
@@ -66,7 +80,7 @@ ResultRow make_row(const CurvePoint& point, const Budget& budget) {
   row.final = point.final;
   if (point.final && budget.kind == Budget::Kind::seconds) {
     row.budget_miss = row.wall_seconds / budget.value - 1;
-    const double allowed = std::max(k_budget_tolerance * budget.value, point.pass_seconds);
+    const double allowed = std::max(k_budget_tolerance * budget.value, point.pass_seconds) + point.waited_seconds;
     if (std::abs(row.wall_seconds - budget.value) > allowed) row.flags.push_back("budget_missed");
   }
   if (point.invalid_samples > 0) row.flags.push_back("invalid_samples");
@@ -78,20 +92,22 @@ std::vector<ComparedMethod> run_comparison(const Comparison& comparison, const M
                                            const std::function<void(double)>& progress) {
   const Experiment& experiment = comparison.experiment;
   const nlohmann::json machine = machine_info();
-  std::vector<MethodRun> runs = make_runs(comparison, makers);
-  std::vector<ComparedMethod> methods(runs.size());
+  Rendering rendering = make_rendering(comparison, makers);
+  std::vector<ComparedMethod> methods(experiment.methods.size());
 
-  const auto receive = [&](std::size_t i, const PointImage& point) {
+  const auto receive = [&](std::size_t run_index, PointImage point) {
+    MethodRun& run = rendering.runs[run_index];
+    const std::size_t i = rendering.methods[run_index][point.reconstruction];
     ResultRow row = make_row(point.point, experiment.budget);
     row.scene = comparison.scene_name;
     row.method = experiment.methods[i].name;
     row.repeat = comparison.repeat;
-    add_trait_flags(row, runs[i].traits());
-    if (comparison.reference != nullptr) add_errors(row, point, runs[i].film(), *comparison.reference);
+    add_trait_flags(row, run.traits());
+    if (comparison.reference != nullptr) add_errors(row, point, run.film(), *comparison.reference);
     methods[i].rows.push_back(std::move(row));
-    if (point.point.final) methods[i].result = take_result(runs[i], point, machine);
+    if (point.point.final) methods[i].result = take_result(run, std::move(point), machine);
   };
-  take_turns(runs, static_cast<std::size_t>(comparison.repeat), receive, progress);
+  take_turns(rendering.runs, static_cast<std::size_t>(comparison.repeat), receive, progress);
   return methods;
 }
 

@@ -139,7 +139,7 @@ void ConfigReader::read_methods(JsonObjectReader& reader) {
   if (elements.empty() && document_.root().at("methods").is_array())
     reader.problem("methods", "is empty: at least one method is needed");
   for (const std::string& element : elements) {
-    std::optional<MethodPlan> method = read_method(document_, element, registries_, problems_);
+    std::optional<MethodPlan> method = read_method(document_, element, registries_, problems_, experiment_.methods);
     if (!method) continue;
     check_unique(experiment_.methods, method->name, element);
     experiment_.methods.push_back(std::move(*method));

@@ -27,6 +27,8 @@ struct MethodPlan {
   nlohmann::json parameters;   ///< the integrator's keys only, as written; validated
   std::string reconstruction;  ///< name in the registry; "none" by default
   nlohmann::json reconstruction_parameters;
+  /// An earlier method whose very samples this one reconstructs in another way; empty: it renders its own.
+  std::string render_of;
 };
 
 struct Budget {

@@ -27,7 +27,8 @@ std::vector<PlannedRun> plan_memory(const std::vector<MethodPlan>& methods, cons
   std::vector<PlannedRun> runs;
   runs.reserve(runs.size() + methods.size());
   for (const MethodPlan& method : methods)
-    runs.push_back({scene_name, method.name, makers.integrator(method)->plan_memory(scene, settings)});
+    if (method.render_of.empty())
+      runs.push_back({scene_name, method.name, makers.integrator(method)->plan_memory(scene, settings)});
   return runs;
 }
 

@@ -56,9 +56,31 @@ void read_reconstruction(const JsonDocument& document, const std::string& pointe
   if (given.is_object()) method.reconstruction_parameters = without_keys(given, {"type"});
 }
 
+/// What a method has of the one whose samples it reconstructs.
+void read_render_of(JsonObjectReader& reader, std::span<const MethodPlan> earlier, MethodPlan& method) {
+  method.render_of = reader.text("render_of").value_or("");
+  if (!reader.member("name")) reader.problem("name", "is missing: a name that tells it from the method that renders");
+  std::vector<std::string> names;
+  for (const MethodPlan& other : earlier) {
+    if (!other.render_of.empty()) continue;
+    names.push_back(other.name);
+    if (other.name == method.render_of) method.integrator = other.integrator, method.parameters = other.parameters;
+  }
+  if (method.integrator.empty())
+    reader.problem("render_of", fmt::format("no earlier method with samples of its own has the name \"{}\"{}",
+                                            method.render_of, suggestion(method.render_of, names)));
+  reader.report_unknown_keys();
+}
+
 void read_method_object(const JsonDocument& document, const std::string& pointer, const Registries& registries,
-                        Problems& problems, MethodPlan& method) {
+                        std::span<const MethodPlan> earlier, Problems& problems, MethodPlan& method) {
   JsonObjectReader reader(document, pointer, problems);
+  if (document.find(pointer)->is_object() && document.find(pointer)->contains("render_of")) {
+    method.name = reader.text("name").value_or("");
+    if (const auto reconstruction = reader.member("reconstruction"))
+      read_reconstruction(document, *reconstruction, registries, problems, method);
+    return read_render_of(reader, earlier, method);
+  }
   method.integrator = reader.text("integrator").value_or("");
   method.name = reader.text("name").value_or(method.integrator);
   if (const auto reconstruction = reader.member("reconstruction"))
@@ -97,7 +119,8 @@ json parameters_of(Described& described) {
 }  // namespace
 
 std::optional<MethodPlan> read_method(const JsonDocument& document, const std::string& pointer,
-                                      const Registries& registries, Problems& problems) {
+                                      const Registries& registries, Problems& problems,
+                                      std::span<const MethodPlan> earlier) {
   const std::size_t problems_before = problems.all().size();
   MethodPlan method;
   method.parameters = json::object();
@@ -108,7 +131,7 @@ std::optional<MethodPlan> read_method(const JsonDocument& document, const std::s
     if (!find_entry(registries.integrators, method.integrator))
       problems.add(document.position(pointer), unknown_name("integrator", method.integrator, registries.integrators));
   } else {
-    read_method_object(document, pointer, registries, problems, method);
+    read_method_object(document, pointer, registries, earlier, problems, method);
   }
   if (problems.all().size() == problems_before && !is_label(method.name))
     problems.add(document.position(join_pointer(pointer, "name")), unusable_label(method.name));
@@ -117,9 +140,14 @@ std::optional<MethodPlan> read_method(const JsonDocument& document, const std::s
 }
 
 nlohmann::json resolved_method(const MethodPlan& method, const Registries& registries) {
-  json resolved = parameters_of(*make_integrator(method, registries));
+  json resolved = json::object();
+  if (method.render_of.empty()) {
+    resolved = parameters_of(*make_integrator(method, registries));
+    resolved["integrator"] = method.integrator;
+  } else {
+    resolved["render_of"] = method.render_of;
+  }
   resolved["name"] = method.name;
-  resolved["integrator"] = method.integrator;
   const auto reconstruction = make_reconstruction(method, registries);
   resolved["reconstruction"] = reconstruction ? parameters_of(*reconstruction) : json::object();
   resolved["reconstruction"]["type"] = method.reconstruction;

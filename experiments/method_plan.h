@@ -23,9 +23,11 @@ Registries all_registries();
 
 /// Reads the method at `pointer`, which must exist: an object {name, integrator, its parameters, reconstruction}, or
 /// the integrator's name alone; a reconstruction is an object {type, its parameters} or its type alone. The name
-/// defaults to the integrator's. nullopt: `problems` says why.
+/// defaults to the integrator's. {name, render_of, reconstruction} is the method of `earlier` that render_of names,
+/// with another reconstruction of the same samples. nullopt: `problems` says why.
 std::optional<MethodPlan> read_method(const JsonDocument& document, const std::string& pointer,
-                                      const Registries& registries, Problems& problems);
+                                      const Registries& registries, Problems& problems,
+                                      std::span<const MethodPlan> earlier = {});
 
 /// The method as a config would give it, with every parameter at the value that it has.
 nlohmann::json resolved_method(const MethodPlan& method, const Registries& registries);

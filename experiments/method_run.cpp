@@ -27,14 +27,15 @@ std::vector<double> curve_targets(const Budget& budget) {
   return targets;
 }
 
-MethodRun::MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, std::unique_ptr<Reconstruction> reconstruction,
+MethodRun::MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, Reconstructions reconstructions,
                      const Scene& scene, Clock clock)
     : plan_(std::move(plan)),
       integrator_(std::move(integrator)),
-      reconstruction_(std::move(reconstruction)),
+      reconstructions_(std::move(reconstructions)),
       scene_(scene),
       clock_(std::move(clock)) {
   assert(!plan_.targets.empty() && std::is_sorted(plan_.targets.begin(), plan_.targets.end()));
+  assert(!reconstructions_.empty());
 }
 
 double MethodRun::progress() const {
@@ -43,18 +44,18 @@ double MethodRun::progress() const {
   return std::min(1.0, used / plan_.budget.value);
 }
 
-std::optional<PointImage> MethodRun::step() {
+std::vector<PointImage> MethodRun::step() {
   assert(!done());
   if (!film_) {
     prepare();
-    return std::nullopt;
+    return {};
   }
   if (passes_ > 0) {
     skip_missed_targets();
     if (point_is_due()) return make_point();
   }
   render_pass();
-  return std::nullopt;
+  return {};
 }
 
 void MethodRun::prepare() {
@@ -62,7 +63,7 @@ void MethodRun::prepare() {
     integrator_->prepare(scene_, plan_.settings);
     FilmLayers layers = plan_.layers;
     layers.gradients = integrator_->traits().gradients;
-    film_.emplace(scene_.camera().resolution(), layers);
+    film_ = std::make_shared<Film>(scene_.camera().resolution(), layers);
   });
 }
 
@@ -94,29 +95,36 @@ bool MethodRun::point_is_due() const {
   return spent() + predicted_pass_seconds() + reconstruct_seconds_ > target;
 }
 
-PointImage MethodRun::make_point() {
-  CurvePoint point;
-  point.target = plan_.targets[next_target_];
-  point.final = is_final_target();
-  point.passes = passes_;
-  point.prepare = prepare_;
-  point.render = render_;
-  point.rays = integrator_->statistics().rays;
-  point.invalid_samples = film_->invalid_samples();
-  point.pass_seconds = predicted_pass_seconds();
-  FinalImage result;
-  point.reconstruct = measure(clock_, [&] { result = final_image(*film_, reconstruction_.get()); });
-  point.reconstruction = result.reconstruction;
-  reconstruct_seconds_ = point.reconstruct.wall;
+std::vector<PointImage> MethodRun::make_point() {
+  CurvePoint common;
+  common.target = plan_.targets[next_target_];
+  common.final = is_final_target();
+  common.passes = passes_;
+  common.prepare = prepare_;
+  common.render = render_;
+  common.rays = integrator_->statistics().rays;
+  common.invalid_samples = film_->invalid_samples();
+  common.pass_seconds = predicted_pass_seconds();
+  std::vector<PointImage> images;
+  reconstruct_seconds_ = 0;
+  for (std::size_t i = 0; i < reconstructions_.size(); ++i) {
+    FinalImage result;
+    CurvePoint point = common;
+    point.reconstruct = measure(clock_, [&] { result = final_image(*film_, reconstructions_[i].get()); });
+    point.reconstruction = result.reconstruction;
+    reconstruct_seconds_ = std::max(reconstruct_seconds_, point.reconstruct.wall);
+    images.push_back({i, point, std::move(result.image)});
+  }
+  for (PointImage& image : images) image.point.waited_seconds = reconstruct_seconds_ - image.point.reconstruct.wall;
   last_point_passes_ = passes_;
   ++next_target_;
-  return {point, std::move(result.image)};
+  return images;
 }
 
-Film MethodRun::take_film() {
+std::shared_ptr<const Film> MethodRun::finished_film() {
   assert(done());
   for (const int half : {0, 1}) film_->close_set(half);
-  return std::move(*film_);
+  return film_;
 }
 
 }  // namespace gradslc

@@ -18,6 +18,8 @@ struct CurvePoint {
   int passes = 0;
   Seconds prepare, render;
   Seconds reconstruct;  ///< of this point alone
+  /// How much longer, on the wall, the longest of the run's reconstructions takes: the budget waits for that one.
+  double waited_seconds = 0;
   std::uint64_t rays = 0;
   std::uint64_t invalid_samples = 0;
   double pass_seconds = 0;  ///< predicted wall time of one more pass
@@ -27,8 +29,9 @@ struct CurvePoint {
   Seconds total() const { return prepare + render + reconstruct; }
 };
 
-/// A curve point with the image that it has.
+/// A curve point with the image that it has, by one of the run's reconstructions.
 struct PointImage {
+  std::size_t reconstruction = 0;
   CurvePoint point;
   RgbImage image;
 };
@@ -38,7 +41,8 @@ struct PointImage {
 std::vector<double> curve_targets(const Budget& budget);
 
 /// One method on its way through its budget (DESIGN 8). Does one unit of work at a time, so that methods can take
-/// turns; its clock runs only inside step().
+/// turns; its clock runs only inside step(). It may have several reconstructions of the same samples: each is charged
+/// with its own time alone.
 class MethodRun {
  public:
   struct Plan {
@@ -48,33 +52,35 @@ class MethodRun {
     FilmLayers layers;            ///< beside gradients, which are the method's own
     std::vector<double> targets;  ///< of curve points, ascending, the budget last
   };
-  /// `scene` must outlive the run. `reconstruction` may be null. `clock` tells the time.
-  MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, std::unique_ptr<Reconstruction> reconstruction,
-            const Scene& scene, Clock clock);
+  using Reconstructions = std::vector<std::unique_ptr<Reconstruction>>;
+  /// `scene` must outlive the run. At least one reconstruction, which may be null: the primal. `clock` tells the time.
+  MethodRun(Plan plan, std::unique_ptr<Integrator> integrator, Reconstructions reconstructions, const Scene& scene,
+            Clock clock);
 
   bool done() const { return next_target_ == plan_.targets.size(); }
   /// Share of the budget that is used, in seconds or passes, at most 1; 1 when done.
   double progress() const;
-  /// Prepares the method, or renders a pass, or gives the image of a curve point that is due; only while !done().
-  /// A point is due when its passes are there, or when one more pass and the point's reconstruction, as long as earlier
-  /// ones took, would end beyond its seconds. Points that cannot be given before a tenth more than their seconds have
-  /// passed, or since whose predecessor no pass was rendered, are left out; the final one is not, and gets one pass at
-  /// least.
-  std::optional<PointImage> step();
+  /// Prepares the method, or renders a pass, or gives the images of a curve point that is due; only while !done().
+  /// A point is due when its passes are there, or when one more pass and the point's longest reconstruction, as long as
+  /// earlier ones took, would end beyond its seconds. Points that cannot be given before a tenth more than their
+  /// seconds have passed, or since whose predecessor no pass was rendered, are left out; the final one is not, and gets
+  /// one pass at least.
+  std::vector<PointImage> step();
 
   const std::string& name() const { return plan_.name; }
   int passes() const { return passes_; }
   Seconds prepare_time() const { return prepare_; }
   Seconds render_time() const { return render_; }
   const Film& film() const { return *film_; }  ///< only after the first step
-  Film take_film();                            ///< only when done; sets that are still open are closed
+  /// Only when done; sets that are still open are closed. Shared by all results of the run.
+  std::shared_ptr<const Film> finished_film();
   IntegratorTraits traits() const { return integrator_->traits(); }
   IntegratorStatistics statistics() const { return integrator_->statistics(); }
 
  private:
   void prepare();
   void render_pass();
-  PointImage make_point();
+  std::vector<PointImage> make_point();
   void skip_missed_targets();
   bool point_is_due() const;
   double predicted_pass_seconds() const;
@@ -83,14 +89,14 @@ class MethodRun {
 
   Plan plan_;
   std::unique_ptr<Integrator> integrator_;
-  std::unique_ptr<Reconstruction> reconstruction_;
+  Reconstructions reconstructions_;
   const Scene& scene_;
   Clock clock_;
-  std::optional<Film> film_;  // made once the method has said whether it has gradients
+  std::shared_ptr<Film> film_;  // made once the method has said whether it has gradients
   int passes_ = 0;
   Seconds prepare_, render_;
   std::vector<double> recent_pass_seconds_;  // of the last passes, a ring
-  double reconstruct_seconds_ = 0;           // what the last point's took
+  double reconstruct_seconds_ = 0;           // what the longest of the last point's took
   int last_point_passes_ = 0;
   std::size_t next_target_ = 0;
 };

@@ -54,12 +54,14 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
   nlohmann::json machine = machine_info();
   std::unique_ptr<Reconstruction> reconstruction = makers.reconstruction(method);
   MethodRun::Plan plan{method.name, settings, budget, layers, render_targets(budget, reconstruction != nullptr)};
-  MethodRun run(std::move(plan), makers.integrator(method), std::move(reconstruction), scene, makers.clock);
+  MethodRun::Reconstructions reconstructions;
+  reconstructions.push_back(std::move(reconstruction));
+  MethodRun run(std::move(plan), makers.integrator(method), std::move(reconstructions), scene, makers.clock);
 
   const double begin = makers.clock().wall;
   PointImage last;
   take_turns(
-      std::span(&run, 1), 0, [&](std::size_t, const PointImage& point) { last = point; },
+      std::span(&run, 1), 0, [&](std::size_t, PointImage point) { last = std::move(point); },
       [&](double fraction) {
         if (!progress || fraction <= 0) return;
         progress(fraction, (makers.clock().wall - begin) * (1 - fraction) / fraction, method.name);
@@ -69,13 +71,13 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
 
 RenderResult take_result(MethodRun& run, PointImage final, nlohmann::json machine) {
   const CurvePoint& point = final.point;
-  return {std::move(final.image), run.take_film(),    point.passes,         point.total().wall,
-          point.total().cpu,      point.prepare.wall, point.render.wall,    point.reconstruct.wall,
-          run.statistics(),       run.traits(),       point.reconstruction, std::move(machine)};
+  return {std::move(final.image), run.finished_film(), point.passes,         point.total().wall,
+          point.total().cpu,      point.prepare.wall,  point.render.wall,    point.reconstruct.wall,
+          run.statistics(),       run.traits(),        point.reconstruction, std::move(machine)};
 }
 
 void write_render(const std::filesystem::path& path, const RenderResult& result, const nlohmann::json& manifest) {
-  write_exr(path, {result.image, film_layers(result.film), {}});
+  write_exr(path, {result.image, film_layers(*result.film), {}});
 
   nlohmann::json full = manifest;
   full["passes"] = result.passes;
@@ -86,7 +88,7 @@ void write_render(const std::filesystem::path& path, const RenderResult& result,
                      {"reconstruct", result.reconstruct_seconds}};
   full["rays"] = result.statistics.rays;
   full["counters"] = counters_json(result.statistics);
-  full["invalid_samples"] = result.film.invalid_samples();
+  full["invalid_samples"] = result.film->invalid_samples();
   full["traits"] = {{"gradients", result.traits.gradients},
                     {"biased", result.traits.biased},
                     {"truncated", result.traits.truncated},
@@ -113,7 +115,8 @@ nlohmann::json to_json(const MethodPlan& method) {
           {"integrator", method.integrator},
           {"parameters", method.parameters},
           {"reconstruction", method.reconstruction},
-          {"reconstruction_parameters", method.reconstruction_parameters}};
+          {"reconstruction_parameters", method.reconstruction_parameters},
+          {"render_of", method.render_of}};
 }
 
 nlohmann::json to_json(const RenderSettings& settings) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,7 +13,7 @@ namespace gradslc {
 /// A method's image at the end of its budget, and what it cost.
 struct RenderResult {
   RgbImage image;
-  Film film{Resolution{}, FilmLayers{}};
+  std::shared_ptr<const Film> film;
   int passes = 0;
   double wall_seconds = 0, cpu_seconds = 0;                                 ///< prepare + render + reconstruct
   double prepare_seconds = 0, render_seconds = 0, reconstruct_seconds = 0;  ///< wall
@@ -30,7 +31,7 @@ RenderResult render_method(const Scene& scene, const MethodPlan& method, const R
 RenderResult render_method(const Scene& scene, const MethodPlan& method, const RenderSettings& settings,
                            const Budget& budget, FilmLayers layers, const Makers& makers, const Progress& progress);
 
-/// The result of a run that is done; `final` is its last point. The run must not be used afterwards.
+/// The result of a run that is done; `final` is its last point by one of its reconstructions.
 RenderResult take_result(MethodRun& run, PointImage final, nlohmann::json machine);
 
 /// Writes the image with the film's layers as EXR to `path`, and beside it, with the extension .json, `manifest` with

@@ -30,7 +30,7 @@ void take_turns(std::span<MethodRun> runs, std::size_t first, const PointReceive
     MethodRun& run = runs[i];
     const double end = run.progress() + k_slice;
     do {
-      if (const std::optional<PointImage> point = run.step()) receive(i, *point);
+      for (PointImage& point : run.step()) receive(i, std::move(point));
     } while (!run.done() && run.progress() < end);
     progress(mean_progress(runs));
   }

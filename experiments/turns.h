@@ -8,7 +8,7 @@
 namespace gradslc {
 
 /// Called for each curve point of the run with the given index; no method's clock runs meanwhile.
-using PointReceiver = std::function<void(std::size_t run, const PointImage& point)>;
+using PointReceiver = std::function<void(std::size_t run, PointImage point)>;
 
 /// Brings all runs through their budgets in turns, so that a drift of the machine hits all alike: always the run that
 /// has used the smallest share of its budget goes on, until it has used a fiftieth more, or for one pass where that is

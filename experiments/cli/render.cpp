@@ -107,7 +107,7 @@ json summary(const RenderResult& result, const MethodPlan& method, const std::fi
           {"render_seconds", result.render_seconds},
           {"reconstruct_seconds", result.reconstruct_seconds},
           {"rays", result.statistics.rays},
-          {"invalid_samples", result.film.invalid_samples()},
+          {"invalid_samples", result.film->invalid_samples()},
           {"biased", result.traits.biased},
           {"truncated", result.traits.truncated},
           {"one_set", result.traits.one_set},
@@ -225,7 +225,7 @@ int render(const RenderArguments& arguments) {
                   {"budget", arguments.seconds ? json{{"seconds", *arguments.seconds}} : json{{"spp", arguments.spp}}},
                   {"parts", arguments.parts},
                   {"debug", arguments.debug}});
-  const std::optional<Firefly> firefly = largest_contribution(result.film);
+  const std::optional<Firefly> firefly = largest_contribution(*result.film);
   if (arguments.print_json) {
     json printed = summary(result, *method, output);
     if (firefly) printed["largest_contribution"] = to_json(*firefly);

@@ -63,6 +63,34 @@ constexpr const char* k_issue_config = R"({
   "budget": { "seconds": 20 },            // or { "spp": 64 }; comments are allowed
   "reference": { "spp": 4096 } })";
 
+TEST_F(Config, MethodsMayReconstructTheSamplesOfEarlierOnes) {
+  const char* methods = R"({ "methods": [ { "name": "a", "integrator": "slc", "cut_size": 7 },
+      { "name": "b", "render_of": "a", "reconstruction": { "type": "l2", "alpha": 0.5 } } ] })";
+  const std::optional<Experiment> experiment = load(config_with(methods));
+  ASSERT_TRUE(experiment) << problems_.all().front().what();
+  const MethodPlan &a = experiment->methods[0], &b = experiment->methods[1];
+  EXPECT_EQ(a.render_of, "");
+  EXPECT_EQ(b.render_of, "a");
+  EXPECT_EQ(b.integrator, "slc");
+  EXPECT_EQ(b.parameters, a.parameters);
+  EXPECT_EQ(b.reconstruction, "l2");
+  const std::optional<Experiment> again = load(experiment->resolved.dump());
+  ASSERT_TRUE(again) << problems_.all().front().what();
+  EXPECT_EQ(again->resolved, experiment->resolved);
+
+  const auto problems = [&](const char* second) {
+    json config = json::parse(config_with(methods));
+    config["methods"][1] = json::parse(second);
+    return problems_of(config.dump());
+  };
+  using Found = std::vector<std::string>;
+  EXPECT_EQ(problems(R"({ "name": "b", "render_of": "A" })"),
+            Found{"/methods/1/render_of: no earlier method with samples of its own has the name \"A\"; known: a"});
+  EXPECT_EQ(problems(R"({ "render_of": "a" })"),
+            Found{"/methods/1/name: is missing: a name that tells it from the method that renders"});
+  EXPECT_EQ(problems(R"({ "name": "b", "render_of": "a", "cut_size": 3 })").size(), 1u) << "its samples are those of a";
+}
+
 TEST_F(Config, ReadsTheFixedShape) {
   const std::optional<Experiment> experiment = load(k_issue_config);
   ASSERT_TRUE(experiment) << problems_.all().front().what();

@@ -84,6 +84,30 @@ TEST_F(RunnerTest, WritesARowPerMethodRepeatAndCurvePoint) {
   EXPECT_EQ(finals, 4);
 }
 
+TEST_F(RunnerTest, ReconstructsTheSameSamplesInSeveralWays) {
+  Experiment e = experiment(k_spp);
+  speeds["B too"] = {};
+  MethodPlan other = fakes::method("B too");
+  other.render_of = "B";
+  e.methods.push_back(other);
+  run(e);
+  EXPECT_EQ(passes_of("B"), 2u * 8) << "rendered once";
+  EXPECT_EQ(passes_of("B too"), 0u);
+  std::map<std::pair<int, int>, ResultRow> of_b;
+  int found = 0;
+  for (const ResultRow& row : rows())
+    if (row.method == "B") of_b[{row.repeat, row.passes}] = row;
+  for (const ResultRow& row : rows()) {
+    if (row.method != "B too") continue;
+    ++found;
+    const ResultRow& b = of_b.at({row.repeat, row.passes});
+    EXPECT_EQ(row.metric("relmse"), b.metric("relmse")) << "fake reconstructions leave the primal as it is";
+    EXPECT_NEAR(row.wall_seconds, b.wall_seconds - 0.3, 1e-9);
+    EXPECT_EQ(row.rays, b.rays);
+  }
+  EXPECT_EQ(found, 2 * 4);
+}
+
 TEST_F(RunnerTest, EqualTimeIsEqualAndSaysByHowMuchItMissed) {
   run(experiment(k_seconds));
   for (const ResultRow& row : rows()) {

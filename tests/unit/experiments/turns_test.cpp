@@ -19,8 +19,10 @@ MethodRun make_run(World& world, const Scene& scene, const std::string& name, co
                    bool reconstructs = false) {
   const Makers makers = fakes::makers(world, {{name, speed}});
   const MethodPlan method = fakes::method(name, reconstructs ? "fake" : "none");
-  return MethodRun({name, {}, budget, {}, curve_targets(budget)}, makers.integrator(method),
-                   makers.reconstruction(method), scene, makers.clock);
+  MethodRun::Reconstructions reconstructions;
+  reconstructions.push_back(makers.reconstruction(method));
+  return MethodRun({name, {}, budget, {}, curve_targets(budget)}, makers.integrator(method), std::move(reconstructions),
+                   scene, makers.clock);
 }
 
 std::vector<CurvePoint> run_alone(World& world, const Speed& speed, Budget budget, bool reconstructs = false) {
@@ -80,6 +82,35 @@ TEST(MethodRun, LastReconstructionIsPredictedAndEarlierOnesAreNotCharged) {
     EXPECT_NEAR(point.total().wall, 1 + 0.25 * point.passes + 2, k_rounding) << "its own reconstruction only";
   }
   EXPECT_NEAR(world.now.wall - 100, 1 + 0.25 * last.passes + 2 * static_cast<double>(points.size()), k_rounding);
+}
+
+TEST(MethodRun, ReconstructionsOfTheSameSamplesAreChargedWithTheirOwnTime) {
+  World world;
+  const Scene scene = fakes::fake_scene();
+  const Makers makers = fakes::makers(world, {{"a", {.prepare_seconds = 1, .pass_seconds = 0.25}}});
+  MethodRun::Reconstructions reconstructions(3);
+  reconstructions[0] = std::make_unique<fakes::FakeReconstruction>(world, 0.5);
+  reconstructions[2] = std::make_unique<fakes::FakeReconstruction>(world, 2);
+  MethodRun run({"a", {}, seconds(32), {}, curve_targets(seconds(32))}, makers.integrator(fakes::method("a")),
+                std::move(reconstructions), scene, makers.clock);
+  std::vector<PointImage> images;
+  take_turns(
+      std::span(&run, 1), 0, [&](std::size_t, PointImage p) { images.push_back(std::move(p)); }, [](double) {});
+  const double times[] = {0.5, 0, 2};
+  ASSERT_EQ(images.size() % 3, 0u);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const CurvePoint& point = images[i].point;
+    EXPECT_EQ(images[i].reconstruction, i % 3);
+    EXPECT_NEAR(point.reconstruct.wall, times[i % 3], k_rounding);
+    EXPECT_NEAR(point.total().wall + point.waited_seconds, 1 + 0.25 * point.passes + 2, k_rounding);
+    EXPECT_EQ(point.passes, images[i / 3 * 3].point.passes) << "the same samples";
+    EXPECT_EQ(images[i].image, images[i / 3 * 3].image) << "which fakes leave as they are";
+  }
+  for (std::size_t i = images.size() - 3; i < images.size(); ++i) {
+    EXPECT_TRUE(images[i].point.final);
+    EXPECT_TRUE(make_row(images[i].point, seconds(32)).flags.empty());
+  }
+  EXPECT_GT(images.back().point.total().wall, 32 - 0.25 - k_rounding) << "the longest fills the budget";
 }
 
 TEST(MethodRun, CurvePointsLieWithinTheirSeconds) {
