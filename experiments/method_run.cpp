@@ -63,6 +63,8 @@ void MethodRun::prepare() {
     integrator_->prepare(scene_, plan_.settings);
     FilmLayers layers = plan_.layers;
     layers.gradients = integrator_->traits().gradients;
+    for (const auto& reconstruction : reconstructions_)
+      layers.features |= reconstruction && reconstruction->needs_features();
     film_ = std::make_shared<Film>(scene_.camera().resolution(), layers);
   });
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "film/film_io.h"
 
 namespace gradslc {
 namespace {
@@ -59,6 +60,12 @@ ReconstructionInput reconstruction_input(const Film& film) {
   fill_layer(input, primal_layer, first.primal, second.primal);
   fill_layer(input, dx_layer, first.dx, second.dx);
   fill_layer(input, dy_layer, first.dy, second.dy);
+  if (film.layers().features) {
+    FeatureLayers layers = feature_layers(film);
+    input.features = {std::move(layers.albedo),          std::move(layers.normal),
+                      std::move(layers.depth),           std::move(layers.albedo_variance),
+                      std::move(layers.normal_variance), std::move(layers.depth_variance)};
+  }
   return input;
 }
 

@@ -110,6 +110,7 @@ Film::Film(Resolution resolution, FilmLayers layers) : layers_(layers) {
     if (layers.gradients) half.dx = half.dy = MomentImage(resolution);
     if (layers.parts) half.part_sums.assign(k_part_count, Image<Rgb>(resolution));
     if (layers.debug) half.debug = DebugImage(resolution);
+    if (layers.features) half.features = FeatureImage(resolution);
   }
 }
 
@@ -130,6 +131,7 @@ void Film::merge(const Film& other) {
     for (std::size_t p = 0; p < from.part_sums.size(); ++p)
       for (std::size_t i = 0; i < from.part_sums[p].size(); ++i) halves_[h].part_sums[p][i] += from.part_sums[p][i];
     halves_[h].debug.merge(from.debug);
+    halves_[h].features.merge(from.features);
   }
 }
 

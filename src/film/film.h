@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "film/debug_image.h"
+#include "film/feature_image.h"
 #include "film/part.h"
 
 namespace gradslc {
@@ -68,6 +69,7 @@ struct FilmLayers {
   bool gradients = false;
   bool parts = false;
   bool debug = false;
+  bool features = false;
   bool operator==(const FilmLayers&) const = default;
 };
 
@@ -77,6 +79,9 @@ struct FilmHalf {
   MomentImage dx, dy;                 ///< dx(x,y) estimates I(x+1,y) - I(x,y), dy alike; empty without gradients
   std::vector<Image<Rgb>> part_sums;  ///< per Part, sum over the primal's valid samples, float; empty without parts
   DebugImage debug;                   ///< empty without debug
+  FeatureImage features;              ///< empty without features
+
+  FeatureSink feature_sink(Pixel pixel) { return {features.empty() ? nullptr : &features, pixel}; }
 };
 
 /// Accumulates passes of one method into two half-buffers that alternate by VPL set (by pass where there is none) and

@@ -107,6 +107,24 @@ MomentLayers moment_layers(const MomentImage& a, const MomentImage& b) {
   });
 }
 
+FeatureLayers feature_layers(const Film& film) {
+  const Resolution resolution = film.resolution();
+  FeatureLayers layers{RgbImage(resolution), RgbImage(resolution), Image<float>(resolution),
+                       RgbImage(resolution), RgbImage(resolution), Image<float>(resolution)};
+  const auto as_rgb = [](const Vec3& v) { return Rgb(v.x, v.y, v.z); };
+  FeatureImage both = film.half(0).features;
+  both.merge(film.half(1).features);
+  for (std::size_t i = 0; i < resolution.pixels(); ++i) {
+    const auto count =
+        static_cast<float>(film.half(0).primal.accumulators()[i].count + film.half(1).primal.accumulators()[i].count);
+    const auto [mean, variance] = both.moments(i, count);
+    layers.albedo[i] = mean.albedo, layers.normal[i] = as_rgb(mean.normal), layers.depth[i] = mean.depth;
+    layers.albedo_variance[i] = variance.albedo, layers.normal_variance[i] = as_rgb(variance.normal);
+    layers.depth_variance[i] = variance.depth;
+  }
+  return layers;
+}
+
 std::map<std::string, ExrLayer> film_layers(const Film& film) {
   std::map<std::string, ExrLayer> layers;
   const MomentLayers primal = moment_layers(film.half(0).primal, film.half(1).primal);
@@ -125,6 +143,12 @@ std::map<std::string, ExrLayer> film_layers(const Film& film) {
   layers["invalid"] = invalid_layer(film);
   if (film.layers().parts)
     for (int p = 0; p < k_part_count; ++p) layers[k_part_names[p]] = film.part(static_cast<Part>(p));
+  if (film.layers().features) {
+    FeatureLayers features = feature_layers(film);
+    layers["albedo"] = std::move(features.albedo), layers["albedo_variance"] = std::move(features.albedo_variance);
+    layers["normal"] = std::move(features.normal), layers["normal_variance"] = std::move(features.normal_variance);
+    layers["depth"] = std::move(features.depth), layers["depth_variance"] = std::move(features.depth_variance);
+  }
   if (film.layers().debug) {
     const DebugImage debug = film.debug();
     for (const DebugLayer& layer : k_debug_layers) layers[layer.name] = debug_layer(debug, layer);

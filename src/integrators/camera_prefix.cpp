@@ -38,6 +38,7 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
     if (passes_on(context, vertex, throughput, ray, origin)) continue;
     const auto index = static_cast<std::uint32_t>(edges);
     const LobeChoice choice = choose_lobe(vertex, context.lobes, context.random.get1(Use::lobe, index));
+    if (context.features.image) show_surface(context, vertex, choice.connectable);
     if (choice.probability == 0) break;
     throughput = throughput.scaled(1 / choice.probability);
     if (choice.connectable) {
@@ -56,6 +57,7 @@ CameraPrefix trace_camera_prefix(PathContext& context, Vec2 position) {
     ray = spawn_ray(vertex.point, vertex.to_world(sample->direction));
     origin = {vertex.point.position, sample->pdf_solid_angle, sample->delta};
   }
+  context.features = {};
   return prefix;
 }
 

@@ -66,6 +66,7 @@ class GradientPathTracer final : public Integrator {
         if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, i);
         context.log = logged.begin(pixel, log);
+        context.features = half.feature_sink(pixel);
         Differences* const differences = layers.gradients ? &differences_[i] : nullptr;
         const PartValues radiance = layers.parts
                                         ? sample<LabelledThroughput>(context, position, pixel, differences, cost)
@@ -114,7 +115,7 @@ class GradientPathTracer final : public Integrator {
     const auto film_position_of = [&](std::size_t k) { return film_position(neighbour_offset(k), position); };
 
     PathContext offset_context = context;
-    offset_context.log = nullptr;
+    offset_context.log = nullptr, offset_context.features = {};
     PartValues radiance;
     if (shift_ == Shift::reconnection) {
       std::array<OffsetPath, k_neighbours> offsets;

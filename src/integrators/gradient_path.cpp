@@ -18,6 +18,7 @@ class GradientPath {
       const PathVertex& vertex = *vertex_;
       if (base_.log) log_vertex(base_, vertex, throughput_.total());
       if (pass(vertex)) continue;
+      show(base_, vertex);
       add_next_event(vertex);
       if (!scatter(vertex)) return;
     }

@@ -178,8 +178,14 @@ class GradientStochasticLightcuts final : public Integrator {
     const Block region = shift_ == Shift::reconnection ? with_neighbours(tile) : tile;
     if (view.logged.skips(region.first, region.size)) return;
     const SampleStream image_stream = stream(view.slot, view.plan.camera, k_image_stream);
-    worker.region.trace(context(image_stream), image_stream.get2(Use::pixel), region.first, region.size, view.logged,
-                        [&](Pixel pixel) { return !is_corner(pixel, tile); });
+    // A pixel shows its features in its own tile.
+    const auto sink = [&](Pixel pixel) {
+      const bool own = tile.size.contains({pixel.x - tile.first.x, pixel.y - tile.first.y});
+      return own ? view.half.feature_sink(pixel) : FeatureSink();
+    };
+    worker.region.trace(
+        context(image_stream), image_stream.get2(Use::pixel), region.first, region.size, view.logged,
+        [&](Pixel pixel) { return !is_corner(pixel, tile); }, sink);
     worker.cost.prefix_rays += worker.region.rays();
     worker.receivers.clear();
     for (const CameraPrefix& prefix : worker.region.prefixes())

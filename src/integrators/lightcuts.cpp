@@ -56,6 +56,7 @@ class Lightcuts final : public Integrator {
         if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
         context.log = logged.begin(pixel, log);
+        context.features = half.feature_sink(pixel);
         const CameraPrefix prefix = trace_camera_prefix(context, position);
         PartValues radiance = prefix.radiance;
         if (prefix.gather) {

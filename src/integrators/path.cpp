@@ -38,6 +38,18 @@ Passage connect(PathContext& context, const Ray& ray, int edges, int max_edges) 
   return count_passage(context, context.scene.passage(ray, max_edges - edges), edges);
 }
 
+void show_surface(PathContext& context, const PathVertex& vertex, bool decided) {
+  const Bsdf& bsdf = vertex.bsdf;
+  if (!decided &&
+      bsdf.energy(vertex.wo, context.lobes.only_connectable()) < bsdf.energy(vertex.wo, context.lobes.only_other()))
+    return;
+  const float side = vertex.wo.z < 0 ? -1.0f : 1.0f;
+  context.features.image->add(context.features.pixel,
+                              {bsdf.albedo(), vertex.to_world({0, 0, side}),
+                               length(vertex.point.position - context.scene.camera().position())});
+  context.features = {};
+}
+
 void log_vertex(const PathContext& context, const PathVertex& vertex, Rgb throughput) {
   const float side = vertex.wo.z < 0 ? -1.0f : 1.0f;
   context.log->note(

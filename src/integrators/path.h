@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "film/feature_image.h"
 #include "integrators/integrator.h"
 #include "integrators/pass_schedule.h"
 #include "integrators/path_log.h"
@@ -21,6 +22,7 @@ struct PathContext {
   SampleStream random;
   std::uint64_t rays = 0;  ///< counted here
   PathLog* log = nullptr;  ///< is told what happens, if there is one
+  FeatureSink features;    ///< is told the surface that the path shows; emptied then
 };
 
 /// A pixel's sample with random numbers of its own, as methods without groups take it: jittered within the pixel.
@@ -70,6 +72,14 @@ inline PathVertex make_path_vertex(const Scene& scene, const SurfacePoint& hit, 
   scene.shade(hit, wo, vertex);
   vertex.edges = edges;
   return vertex;
+}
+
+/// `decided`: whatever its lobes.
+void show_surface(PathContext& context, const PathVertex& vertex, bool decided);
+/// A camera path comes to a vertex that scatters it. It shows the first surface that scatters at least half of the
+/// light by connectable lobes; mirrors and glass show what is behind them.
+inline void show(PathContext& context, const PathVertex& vertex) {
+  if (context.features.image) show_surface(context, vertex, false);
 }
 
 /// Chooses a point on an emitter by the numbers of `vertex.edges`; nullopt if it cannot light the vertex. Visibility is
@@ -245,6 +255,7 @@ void trace_path(PathContext& context, Ray ray, RayOrigin origin, Throughput thro
     const PathVertex vertex = make_path_vertex(context.scene, *hit, -ray.direction, edges);
     if (context.log) log_vertex(context, vertex, throughput.total());
     if (passes_on(context, vertex, throughput, ray, origin)) continue;
+    show(context, vertex);
     if (!scatter(context, vertex, context.lobes, max_edges, nullptr, throughput, ray, origin, radiance)) return;
     if (roulette_depth > 0 && edges >= roulette_depth && !survives(context, edges, throughput)) return;
   }

@@ -13,10 +13,10 @@ namespace gradslc {
 class PrefixRegion {
  public:
   /// Traces them for the pixels of `size` from `first` of which `wanted`(pixel); others have none. `context`: with
-  /// these random numbers, without rays. `jitter`: film position within each pixel.
-  template <class Wanted>
+  /// these random numbers, without rays. `jitter`: film position within each pixel. `sink`(pixel): where features go.
+  template <class Wanted, class Sink>
   void trace(const PathContext& context, Vec2 jitter, Pixel first, Resolution size, const LoggedSamples& logged,
-             const Wanted& wanted) {
+             const Wanted& wanted, const Sink& sink) {
     first_ = first, size_ = size;
     prefixes_.clear();
     if (logged.any()) logs_.resize(std::max(logs_.size(), size.pixels()));
@@ -29,6 +29,7 @@ class PrefixRegion {
       }
       PathContext path = context;
       if (logged.any()) path.log = logged.begin_part(pixel, logs_[i]);
+      path.features = sink(pixel);
       prefixes_.push_back(trace_camera_prefix(path, film_position(pixel, jitter)));
       if (path.log) path.log->add_rays(path.rays);
       rays_ += path.rays;

@@ -89,6 +89,7 @@ class StochasticLightcuts final : public Integrator {
         if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
         context.log = logged.begin(pixel, log);
+        context.features = half.feature_sink(pixel);
         const CameraPrefix prefix = trace_camera_prefix(context, position);
         PartValues radiance = prefix.radiance;
         if (prefix.gather) {
@@ -139,6 +140,7 @@ class StochasticLightcuts final : public Integrator {
           auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot,
                                                        film.resolution().index(pixel), plan.camera);
           if (logged.any()) context.log = logged.begin(pixel, logs[i]);
+          context.features = half.feature_sink(pixel);
           const auto& prefix = pixels.emplace_back(context, trace_camera_prefix(context, position)).prefix;
           if (prefix.gather) receivers.push_back(make_receiver({*prefix.gather, context.lobes}));
         }

@@ -32,6 +32,7 @@ class PathTracer final : public Integrator {
         if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, {true, true, connectable_roughness_}, slot, i);
         context.log = logged.begin(pixel, log);
+        context.features = half.feature_sink(pixel);
         const PartValues radiance =
             labelled ? sample<LabelledThroughput>(context, position) : sample<PlainThroughput>(context, position);
         record(half, pixel, radiance, context);

@@ -48,6 +48,7 @@ class VplSampler final : public Integrator {
         if (logged.skips(pixel)) continue;
         auto [context, position] = make_pixel_sample(*scene_, settings_, source_.parameters().lobes(), slot, i);
         context.log = logged.begin(pixel, log);
+        context.features = half.feature_sink(pixel);
         record(half, pixel, sample(context, position, set), context);
         rays += context.rays;
       }

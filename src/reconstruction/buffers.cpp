@@ -60,6 +60,22 @@ void check_primal_and_gradients(const ReconstructionBuffers& buffers) {
   check_term("dy", buffers.dy, buffers.dy_count, buffers.dy_variance, {resolution.width, resolution.height - 1});
 }
 
+void check_features(const FeatureBuffers& features, Resolution resolution) {
+  if (features.albedo.empty())
+    throw_input_error("", "reconstruction: the image has no features (albedo, normal, depth); this one needs them");
+  for (const RgbImage* image :
+       {&features.albedo, &features.normal, &features.albedo_variance, &features.normal_variance}) {
+    check_size("a feature", *image, resolution);
+    for (const Rgb& value : *image)
+      if (!is_finite(value)) throw_input_error("", "reconstruction: albedo and normal must be finite");
+  }
+  for (const Image<float>* image : {&features.depth, &features.depth_variance}) {
+    check_size("the depth", *image, resolution);
+    for (const float value : *image)
+      if (!std::isfinite(value)) throw_input_error("", "reconstruction: depth must be finite");
+  }
+}
+
 void check_halves(const ReconstructionInput& input) {
   for (const ReconstructionBuffers& half : input.halves) check_primal_and_gradients(half);
   check_size("the second half", input.halves[1].primal, input.halves[0].primal.resolution());

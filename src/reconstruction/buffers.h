@@ -9,6 +9,8 @@ namespace gradslc {
 /// column and dy's last row are not looked at.
 void check_primal(const ReconstructionBuffers& buffers);
 void check_primal_and_gradients(const ReconstructionBuffers& buffers);
+/// Features of all pixels are there and finite.
+void check_features(const FeatureBuffers& features, Resolution resolution);
 /// Both halves, which must be of one size.
 void check_halves(const ReconstructionInput& input);
 

@@ -10,5 +10,7 @@ namespace gradslc {
 std::unique_ptr<Reconstruction> make_none();
 std::unique_ptr<Reconstruction> make_l2();
 std::unique_ptr<Reconstruction> make_weighted();
+std::unique_ptr<Reconstruction> make_feature();
+std::unique_ptr<Reconstruction> make_denoise();
 
 }  // namespace gradslc

@@ -18,10 +18,19 @@ struct ReconstructionBuffers {
   RgbImage primal_variance, dx_variance, dy_variance;  ///< of the means; infinite where unknown
 };
 
+/// What the pixels show, as far as it has little noise: guides of filters (DESIGN 7). 0 where no surface is seen.
+struct FeatureBuffers {
+  RgbImage albedo, normal;                    ///< normals are means of unit vectors, and so may be shorter
+  Image<float> depth;                         ///< distance to the camera
+  RgbImage albedo_variance, normal_variance;  ///< of the means
+  Image<float> depth_variance;
+};
+
 struct ReconstructionInput {
   ReconstructionBuffers halves[2];  ///< independent of each other
   /// Both halves together, weighted by counts.
   ReconstructionBuffers combined;
+  FeatureBuffers features;  ///< empty images where they were not recorded
 };
 
 struct ReconstructionStatistics {
@@ -40,6 +49,8 @@ class Reconstruction {
  public:
   virtual ~Reconstruction() = default;
   virtual void describe(ParameterVisitor& visitor) = 0;
+  /// Whether it works with features: the film must then record them.
+  virtual bool needs_features() const { return false; }
   /// NaN or infinite primal or gradient values are an Error.
   virtual ReconstructionResult reconstruct(const ReconstructionInput& input) const = 0;
 };
@@ -50,7 +61,7 @@ struct ReconstructionEntry {
   std::unique_ptr<Reconstruction> (*make)();
   bool needs_gradients;
 };
-/// The only list of reconstructions: none, l2, weighted.
+/// The only list of reconstructions.
 std::span<const ReconstructionEntry> reconstruction_registry();
 
 }  // namespace gradslc

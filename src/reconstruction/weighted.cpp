@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cstddef>
-
 #include "reconstruction/buffers.h"
 #include "reconstruction/methods.h"
 #include "reconstruction/weights.h"
@@ -29,36 +26,15 @@ class Weighted final : public Reconstruction {
   ReconstructionResult reconstruct(const ReconstructionInput& input) const override {
     if (!cross_) {
       check_primal_and_gradients(input.combined);
-      return solve_weighted(input.combined, input.combined);
+      return solve_weighted(input.combined, input.combined, options_, solver_);
     }
     check_halves(input);
-    const ReconstructionResult a = solve_weighted(input.halves[0], input.halves[1]);
-    const ReconstructionResult b = solve_weighted(input.halves[1], input.halves[0]);
-    return average(a, input.halves[0].primal_count, b, input.halves[1].primal_count);
+    const ReconstructionResult a = solve_weighted(input.halves[0], input.halves[1], options_, solver_);
+    const ReconstructionResult b = solve_weighted(input.halves[1], input.halves[0], options_, solver_);
+    return average_by_counts(a, input.halves[0].primal_count, b, input.halves[1].primal_count);
   }
 
  private:
-  ReconstructionResult solve_weighted(const ReconstructionBuffers& buffers, const ReconstructionBuffers& source) const {
-    const PoissonWeights weights = variance_weights(buffers, source, options_);
-    return solve({buffers.primal, buffers.dx, buffers.dy, weights}, solver_);
-  }
-
-  /// By counts; the plain mean where neither half has samples.
-  static ReconstructionResult average(const ReconstructionResult& a, const Image<float>& a_count,
-                                      const ReconstructionResult& b, const Image<float>& b_count) {
-    ReconstructionResult result{
-        .image = RgbImage(a.image.resolution()),
-        .statistics = {.iterations = a.statistics.iterations + b.statistics.iterations,
-                       .relative_residual = std::max(a.statistics.relative_residual, b.statistics.relative_residual),
-                       .converged = a.statistics.converged && b.statistics.converged}};
-    for (std::size_t i = 0; i < result.image.size(); ++i) {
-      const float count = a_count[i] + b_count[i];
-      const float share = count > 0 ? a_count[i] / count : 0.5f;
-      result.image[i] = b.image[i] + (a.image[i] - b.image[i]) * share;
-    }
-    return result;
-  }
-
   VarianceWeightOptions options_;
   bool cross_ = true;
   SolverOptions solver_;

@@ -160,4 +160,25 @@ PoissonWeights variance_weights(const ReconstructionBuffers& weighted, const Rec
   return {weights(targets.primal, primal, options.lambda), weights(targets.dx, dx, 1), weights(targets.dy, dy, 1)};
 }
 
+ReconstructionResult solve_weighted(const ReconstructionBuffers& weighted, const ReconstructionBuffers& source,
+                                    const VarianceWeightOptions& options, const SolverOptions& solver) {
+  const PoissonWeights weights = variance_weights(weighted, source, options);
+  return solve({weighted.primal, weighted.dx, weighted.dy, weights}, solver);
+}
+
+ReconstructionResult average_by_counts(const ReconstructionResult& a, const Image<float>& a_count,
+                                       const ReconstructionResult& b, const Image<float>& b_count) {
+  ReconstructionResult result{
+      .image = RgbImage(a.image.resolution()),
+      .statistics = {.iterations = a.statistics.iterations + b.statistics.iterations,
+                     .relative_residual = std::max(a.statistics.relative_residual, b.statistics.relative_residual),
+                     .converged = a.statistics.converged && b.statistics.converged}};
+  for (std::size_t i = 0; i < result.image.size(); ++i) {
+    const float count = a_count[i] + b_count[i];
+    const float share = count > 0 ? a_count[i] / count : 0.5f;
+    result.image[i] = b.image[i] + (a.image[i] - b.image[i]) * share;
+  }
+  return result;
+}
+
 }  // namespace gradslc

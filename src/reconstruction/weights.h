@@ -30,4 +30,12 @@ struct VarianceWeightOptions {
 PoissonWeights variance_weights(const ReconstructionBuffers& weighted, const ReconstructionBuffers& source,
                                 const VarianceWeightOptions& options);
 
+/// The screened Poisson problem of `weighted` with variance_weights(weighted, source), solved.
+ReconstructionResult solve_weighted(const ReconstructionBuffers& weighted, const ReconstructionBuffers& source,
+                                    const VarianceWeightOptions& options, const SolverOptions& solver);
+
+/// Two images of independent halves as one: by counts; the plain mean where neither has samples. Statistics of both.
+ReconstructionResult average_by_counts(const ReconstructionResult& a, const Image<float>& a_count,
+                                       const ReconstructionResult& b, const Image<float>& b_count);
+
 }  // namespace gradslc

@@ -160,7 +160,8 @@ TEST_F(Commands, DebugAddsLayersAndLeavesTheImage) {
       ASSERT_TRUE(debug.layers.contains(name)) << name;
       EXPECT_FALSE(name.starts_with("debug_"));
     }
-    EXPECT_EQ(debug.layers.size(), plain.layers.size() + 8) << method;
+    const std::size_t ratios = plain.layers.contains("dx") ? 2 : 0;
+    EXPECT_EQ(debug.layers.size(), plain.layers.size() + 9 + ratios) << method;
     const json largest = json::parse(outcome.output).at("largest_contribution");
     float most = 0;
     for (const float value : std::get<Image<float>>(debug.layers.at("debug_contribution")))

@@ -24,7 +24,12 @@ class ParameterSetter final : public ParameterVisitor {
   void real(std::string_view name, double& value, Range range, std::string_view, std::string_view) override {
     set(name, value, range);
   }
-  void choice(std::string_view, std::size_t&, const std::vector<std::string>&, std::string_view) override { FAIL(); }
+  void choice(std::string_view name, std::size_t& index, const std::vector<std::string>& names,
+              std::string_view) override {
+    auto value = static_cast<std::int64_t>(index);
+    set(name, value, {0, static_cast<double>(names.size() - 1)});
+    index = static_cast<std::size_t>(value);
+  }
   void group(std::string_view, std::string_view, const std::function<void()>& body) override { body(); }
 
  private:
@@ -87,6 +92,16 @@ ReconstructionBuffers sample_half(const RgbImage& truth, int sets, const PrimalN
   return half;
 }
 
+/// One flat surface, seen at right angles, without noise.
+inline FeatureBuffers flat_features(Resolution resolution) {
+  return {RgbImage(resolution, Rgb(0.5f)),
+          RgbImage(resolution, {0, 0, 1}),
+          Image<float>(resolution, 3),
+          RgbImage(resolution),
+          RgbImage(resolution),
+          Image<float>(resolution)};
+}
+
 /// Both halves together, as the film combines them: `sets` per half.
 inline ReconstructionBuffers combine(const ReconstructionBuffers& a, const ReconstructionBuffers& b) {
   ReconstructionBuffers both = a;
@@ -116,6 +131,7 @@ ReconstructionInput sample_input(const RgbImage& truth, int sets_per_half, const
   for (ReconstructionBuffers& half : input.halves)
     half = sample_half(truth, sets_per_half, primal_noise, gradient_noise, random);
   input.combined = combine(input.halves[0], input.halves[1]);
+  input.features = flat_features(truth.resolution());
   return input;
 }
 

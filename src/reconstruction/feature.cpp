@@ -1,0 +1,62 @@
+#include "reconstruction/buffers.h"
+#include "reconstruction/local_regression.h"
+#include "reconstruction/methods.h"
+#include "reconstruction/weights.h"
+
+namespace gradslc {
+namespace {
+
+/// Gradients, then features (DESIGN 7): each half of the passes is reconstructed as by `weighted` with its own weights,
+/// then smoothed by regression on features and the other half. Both are biased slightly.
+class Feature final : public Reconstruction {
+ public:
+  void describe(ParameterVisitor& visitor) override {
+    visitor.integer("radius", regression_.radius, {1, 32}, "pixels", "of the window of (2 radius + 1)^2 pixels");
+    visitor.real("range", regression_.range, {0.1, 1000}, "",
+                 "how many of their variances apart the other half's pixels may be, squared, to be alike");
+    visitor.boolean(
+        "keep_mean", keep_mean_,
+        "only gradients of the regression, and the primal's mean: a little more error, no shift of the mean");
+    visitor.real("relative_residual", solver_.relative_residual, {1e-10, 0.1}, "",
+                 "residual of the linear systems, relative to their right-hand sides, at which their solver stops");
+  }
+  bool needs_features() const override { return true; }
+
+  ReconstructionResult reconstruct(const ReconstructionInput& input) const override {
+    check_halves(input);
+    check_features(input.features, input.combined.primal.resolution());
+    const auto half = [&](int h) { return solve_weighted(input.halves[h], input.halves[h], weights_, solver_); };
+    const ReconstructionResult filtered = cross_filter(half(0), half(1), input, regression_);
+    return keep_mean_ ? with_mean_of_primal(filtered, input.combined) : filtered;
+  }
+
+ private:
+  /// The sum over the image is the primal's where all pixels have as many samples.
+  ReconstructionResult with_mean_of_primal(const ReconstructionResult& filtered,
+                                           const ReconstructionBuffers& buffers) const {
+    const Resolution resolution = filtered.image.resolution();
+    RgbImage dx(resolution), dy(resolution);
+    for (int y = 0; y < resolution.height; ++y)
+      for (int x = 0; x < resolution.width; ++x) {
+        if (x + 1 < resolution.width) dx(x, y) = filtered.image(x + 1, y) - filtered.image(x, y);
+        if (y + 1 < resolution.height) dy(x, y) = filtered.image(x, y + 1) - filtered.image(x, y);
+      }
+    PoissonWeights weights = count_weights(buffers, k_default_alpha);
+    weights.dx = weights.dy = Image<float>(resolution, 1);
+    ReconstructionResult result = solve({buffers.primal, dx, dy, weights}, solver_);
+    result.statistics.iterations += filtered.statistics.iterations;
+    result.statistics.converged &= filtered.statistics.converged;
+    return result;
+  }
+
+  VarianceWeightOptions weights_;
+  RegressionOptions regression_;
+  bool keep_mean_ = false;
+  SolverOptions solver_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reconstruction> make_feature() { return std::make_unique<Feature>(); }
+
+}  // namespace gradslc
