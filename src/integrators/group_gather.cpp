@@ -55,12 +55,16 @@ void GroupGatherer::gather_together(std::span<GroupSample> samples, const Gather
     const VertexRange range = vertices_that_may_count(sample.context, x, sample.context.settings.max_depth);
     members_.push_back({&sample, make_candidate_receiver({x, settings_.lobes}, range.least, range.most), {}, {}});
   }
-  if (members_.empty()) return;
-  if (tile_)
-    choose_candidates(effort.draws, random);
-  else
-    choose_by_descent(random);
-  for (const Draw& draw : draws_) connect(draw);
+  candidates_ = tile_ ? &tile_->share() : nullptr;
+  for (Members rest = members_; !rest.empty();) {
+    const Members together = tile_ ? rest.first(gather_alike(rest)) : rest;
+    if (tile_)
+      choose_candidates(together, effort.draws, random);
+    else
+      choose_by_descent(together, random);
+    for (const Draw& draw : draws_) connect(together, draw);
+    rest = rest.subspan(together.size());
+  }
   for (Member& member : members_) {
     GroupSample& sample = *member.sample;
     member.light.collect(sample.prefix->throughput, sample.radiance);
@@ -69,21 +73,35 @@ void GroupGatherer::gather_together(std::span<GroupSample> samples, const Gather
   }
 }
 
-void GroupGatherer::choose_by_descent(const SampleStream& random) {
+void GroupGatherer::choose_by_descent(Members members, const SampleStream& random) {
   receivers_.clear();
-  for (const Member& member : members_) receivers_.push_back(member.receiver.receiver);
+  for (const Member& member : members) receivers_.push_back(member.receiver.receiver);
   draws_.clear();
   for (const ChosenVpl& chosen : selector_.select(receivers_, random))
     draws_.push_back({.vpl = chosen.vpl, .weight = chosen.inverse_probability});
-  for (const Member& member : members_)
-    log_selection(member.sample->context.log, selector_.last_cost(), members_.size());
+  for (const Member& member : members) log_selection(member.sample->context.log, selector_.last_cost(), members.size());
 }
 
-bool GroupGatherer::members_are_flat() const {
+std::size_t GroupGatherer::gather_alike(Members members) {
+  const CandidateReceiver& first = members.front().receiver;
+  const auto is_alike = [&](const Member& member) {
+    constexpr float k_least_cosine = 0.9f, k_steepest = 0.5f;  // between normals; out of the first one's plane
+    const CandidateReceiver& r = member.receiver;
+    if (r.lambert != first.lambert || r.receiver.transmits != first.receiver.transmits) return false;
+    const Vec3 d = r.receiver.position - first.receiver.position;
+    const float height = dot(d, first.receiver.normal);
+    return dot(as_vec(r.receiver.normal), first.receiver.normal) > k_least_cosine &&
+           height * height <= k_steepest * k_steepest * length_squared(d);
+  };
+  return static_cast<std::size_t>(std::stable_partition(members.begin() + 1, members.end(), is_alike) -
+                                  members.begin());
+}
+
+bool GroupGatherer::are_flat(Members members) {
   constexpr float k_thickness = 1e-4f, k_same_normal = 1e-12f;  // over the extent; squared difference
-  const CandidateReceiver& first = members_.front().receiver;
+  const CandidateReceiver& first = members.front().receiver;
   float extent2 = 0, height = 0;
-  for (const Member& member : members_) {
+  for (const Member& member : members) {
     const CandidateReceiver& r = member.receiver;
     if (!r.lambert || r.receiver.transmits || r.least_k != first.least_k || r.most_k != first.most_k) return false;
     if (length_squared(as_vec(r.receiver.normal) - as_vec(first.receiver.normal)) > k_same_normal) return false;
@@ -94,22 +112,22 @@ bool GroupGatherer::members_are_flat() const {
   return height * height <= k_thickness * k_thickness * extent2;
 }
 
-void GroupGatherer::find_law_receivers() {
+void GroupGatherer::find_law_receivers(Members members) {
   constexpr std::size_t k_corners = 4;
   law_receivers_.clear();
-  if (members_.size() <= k_corners || !members_are_flat()) {
-    for (const Member& member : members_) law_receivers_.push_back(member.receiver);
+  if (members.size() <= k_corners || !are_flat(members)) {
+    for (const Member& member : members) law_receivers_.push_back(member.receiver);
     return;
   }
-  const CandidateReceiver& first = members_.front().receiver;
+  const CandidateReceiver& first = members.front().receiver;
   const Frame frame = frame_from_normal(first.receiver.normal);
   Vec2 lower, upper;
   Rgb diffuse;
-  for (const Member& member : members_) {
+  for (const Member& member : members) {
     const Vec3 d = frame.to_local(member.receiver.receiver.position - first.receiver.position);
     lower = {std::min(lower.x, d.x), std::min(lower.y, d.y)};
     upper = {std::max(upper.x, d.x), std::max(upper.y, d.y)};
-    diffuse += member.receiver.diffuse / static_cast<float>(members_.size());
+    diffuse += member.receiver.diffuse / static_cast<float>(members.size());
   }
   for (const Vec2 corner : {lower, upper, Vec2{lower.x, upper.y}, Vec2{upper.x, lower.y}}) {
     CandidateReceiver& receiver = law_receivers_.emplace_back(first);
@@ -118,9 +136,9 @@ void GroupGatherer::find_law_receivers() {
   }
 }
 
-void GroupGatherer::choose_candidates(int samples, const SampleStream& random) {
-  find_law_receivers();
-  candidates_ = &tile_->share(law_receivers_.size());
+void GroupGatherer::choose_candidates(Members members, int samples, const SampleStream& random) {
+  find_law_receivers(members);
+  tile_->count_evaluations(law_receivers_.size());
   candidates_->evaluate(law_receivers_, settings_.gather.bound);
   candidates_->choose(samples, random.get1_double(Use::candidate_choice), choice_);
   draws_.clear();
@@ -129,7 +147,7 @@ void GroupGatherer::choose_candidates(int samples, const SampleStream& random) {
                       .weight = static_cast<float>(draw.count / (samples * draw.probability)),
                       .count = draw.count,
                       .candidate = draw.candidate});
-  for (const Member& member : members_)
+  for (const Member& member : members)
     if (PathLog* const log = member.sample->context.log) log->add_selection(static_cast<float>(choice_.size()), 0);
 }
 
@@ -143,12 +161,12 @@ Rgb GroupGatherer::unshadowed(const Member& member, const Draw& draw) const {
   return draw.candidate ? candidates_->weight(*draw.candidate) * contribution : contribution;
 }
 
-void GroupGatherer::connect(const Draw& draw) {
+void GroupGatherer::connect(Members members, const Draw& draw) {
   const Vpl& vpl = vpls_[draw.vpl];
   const Normal3 normal = as_normal(vpl.geometric_normal.decode());
   connections_.clear(), segments_.clear(), max_crossings_.clear();
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    Member& member = members_[i];
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    Member& member = members[i];
     const Rgb contribution = unshadowed(member, draw);
     if (is_black(contribution)) {
       member.scatter.add(0, draw.count);
@@ -164,7 +182,7 @@ void GroupGatherer::connect(const Draw& draw) {
 
   for (std::size_t i = 0; i < connections_.size(); ++i) {
     const auto& [index, contribution, edges] = connections_[i];
-    Member& member = members_[index];
+    Member& member = members[index];
     PathContext& context = member.sample->context;
     const Rgb transmittance = count_passage(context, passages_[i], edges).transmittance;
     const Rgb brought = contribution * transmittance * draw.weight;

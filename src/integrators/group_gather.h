@@ -69,14 +69,19 @@ class GroupGatherer {
   };
 
   void gather_without_vpls(GroupSample& sample, const GatherEffort& effort);
-  void choose_by_descent(const SampleStream& random);
-  void choose_candidates(int samples, const SampleStream& random);
-  /// Receivers whose targets sum up to the group's law: its members or, where these lie in a plane, four corners of a
+  /// Members that choose together.
+  using Members = std::span<Member>;
+  void choose_by_descent(Members members, const SampleStream& random);
+  void choose_candidates(Members members, int samples, const SampleStream& random);
+  /// Moves those of the members that are alike to the front and returns how many: the others would make their law worse
+  /// and choose for themselves. What decides is where the paths have come to, not what lights them.
+  static std::size_t gather_alike(Members members);
+  /// Receivers whose targets sum up to the members' law: they or, where they lie in a plane, four corners of a
   /// rectangle around them. A VPL that lights a point of a plane lights one of any corners around it.
-  void find_law_receivers();
-  bool members_are_flat() const;
+  void find_law_receivers(Members members);
+  static bool are_flat(Members members);
   /// Connects all members that it may light with one VPL; their shadow rays are one packet.
-  void connect(const Draw& draw);
+  void connect(Members members, const Draw& draw);
   Rgb unshadowed(const Member& member, const Draw& draw) const;
 
   const Scene& scene_;

@@ -32,9 +32,8 @@ void TileGatherer::calibrate(std::span<const Receiver> receivers) {
   candidates_.calibrate(vpls_, lobes_, points);
 }
 
-CandidateSet& TileGatherer::share(std::size_t receivers) {
-  if (parameters_.learn_visibility && gathers_++ % k_gathers_between_lessons == 0) candidates_.learn_visibility();
-  cost_.evaluations += receivers * candidates_.size();
+CandidateSet& TileGatherer::share() {
+  if (parameters_.learn_visibility) candidates_.learn_visibility();
   return candidates_;
 }
 

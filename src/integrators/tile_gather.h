@@ -63,8 +63,11 @@ class TileGatherer {
   void begin_tile(std::span<const Receiver> receivers, double u);
   /// Light from VPLs at x, which must be one of the tile's, by `draws` >= 1 of them; `u` in [0,1).
   TileLight gather(PathContext& context, const PathVertex& x, int draws, double u);
-  /// The candidates, for a choice that several gather points share; counted as `evaluations` of each.
-  CandidateSet& share(std::size_t receivers);
+  /// The candidates, for choices that several gather points share. What earlier ones have seen is learned here, once
+  /// for all of these: what one of them sees may not decide what the same random numbers draw for another.
+  CandidateSet& share();
+  /// Counts evaluations of all candidates for as many gather points.
+  void count_evaluations(std::size_t receivers) { cost_.evaluations += receivers * candidates_.size(); }
   /// A VertexGather, of one draw, at a vertex behind a ray sent from one of the tile's gather points.
   Rgb gather_behind(PathContext& context, const PathVertex& y, const Compensation& left_over, int max_edges);
   const VplView& vpls() const { return vpls_; }
