@@ -164,7 +164,7 @@ std::unique_ptr<Integrator> make_integrator(const MethodPlan& method, const Regi
 }
 
 std::unique_ptr<Reconstruction> make_reconstruction(const MethodPlan& method, const Registries& registries) {
-  if (method.reconstruction == k_no_reconstruction) return nullptr;
+  if (method.reconstruction == k_no_reconstruction && method.reconstruction_parameters.empty()) return nullptr;
   const ReconstructionEntry* entry = find_entry(registries.reconstructions, method.reconstruction);
   if (!entry)
     throw_input_error("method " + method.name,

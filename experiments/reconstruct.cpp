@@ -1,7 +1,12 @@
 #include "experiments/reconstruct.h"
 
-#include <limits>
+#include <fmt/format.h>
 
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "core/error.h"
 #include "core/parallel.h"
 #include "film/film_io.h"
 
@@ -49,6 +54,39 @@ void fill_layer(ReconstructionInput& input, Layer (*layer)(ReconstructionBuffers
   });
 }
 
+/// Layers of a run's file by their names.
+struct LayerReader {
+  const ExrImage& run;
+  const std::filesystem::path& path;
+
+  bool has(const std::string& name) const { return run.layers.contains(name); }
+  template <class T>
+  const Image<T>& layer(const std::string& name) const {
+    const auto found = run.layers.find(name);
+    const auto* image = found == run.layers.end() ? nullptr : std::get_if<Image<T>>(&found->second);
+    if (!image) throw_input_error(path.string(), fmt::format("has no layer \"{}\": must be a run's EXR", name));
+    return *image;
+  }
+  const RgbImage& colours(const std::string& name) const { return layer<Rgb>(name); }
+  const Image<float>& values(const std::string& name) const { return layer<float>(name); }
+
+  /// The layers of one term: of both halves, and of both together.
+  void read_moment(ReconstructionInput& input, Layer (*term)(ReconstructionBuffers&), const std::string& name,
+                   const std::string& variance) const {
+    for (int h = 0; h < 2; ++h) {
+      const char* const half = h == 0 ? "a" : "b";
+      Layer to = term(input.halves[h]);
+      to.mean = colours(fmt::format("{}_{}", name, half));
+      to.variance = colours(fmt::format("{}_variance_{}", name, half));
+      to.count = values(fmt::format("{}_count_{}", name, half));
+    }
+    Layer both = term(input.combined);
+    both.mean = colours(name), both.variance = colours(variance);
+    for (std::size_t i = 0; i < both.count.size(); ++i)
+      both.count[i] = term(input.halves[0]).count[i] + term(input.halves[1]).count[i];
+  }
+};
+
 }  // namespace
 
 ReconstructionInput reconstruction_input(const Film& film) {
@@ -66,6 +104,24 @@ ReconstructionInput reconstruction_input(const Film& film) {
                       std::move(layers.depth),           std::move(layers.albedo_variance),
                       std::move(layers.normal_variance), std::move(layers.depth_variance)};
   }
+  return input;
+}
+
+ReconstructionInput reconstruction_input(const ExrImage& run, const std::filesystem::path& path) {
+  const LayerReader reader{run, path};
+  const Resolution resolution = run.image.resolution();
+  ReconstructionInput input;
+  for (ReconstructionBuffers* buffers : {&input.halves[0], &input.halves[1], &input.combined})
+    for (const auto layer : {primal_layer, dx_layer, dy_layer}) layer(*buffers).allocate(resolution);
+  reader.read_moment(input, primal_layer, "primal", "variance");
+  if (reader.has("dx")) {
+    reader.read_moment(input, dx_layer, "dx", "dx_variance");
+    reader.read_moment(input, dy_layer, "dy", "dy_variance");
+  }
+  if (reader.has("albedo"))
+    input.features = {
+        reader.colours("albedo"),          reader.colours("normal"),          reader.values("depth"),
+        reader.colours("albedo_variance"), reader.colours("normal_variance"), reader.values("depth_variance")};
   return input;
 }
 

@@ -93,11 +93,7 @@ void write_render(const std::filesystem::path& path, const RenderResult& result,
                     {"biased", result.traits.biased},
                     {"truncated", result.traits.truncated},
                     {"one_set", result.traits.one_set}};
-  if (result.reconstruction) {
-    full["reconstruction"] = {{"iterations", result.reconstruction->iterations},
-                              {"relative_residual", result.reconstruction->relative_residual},
-                              {"converged", result.reconstruction->converged}};
-  }
+  if (result.reconstruction) full["reconstruction"] = to_json(*result.reconstruction);
   full["image"] = {{"file", path.filename().string()},
                    {"width", result.image.width()},
                    {"height", result.image.height()},
@@ -108,6 +104,13 @@ void write_render(const std::filesystem::path& path, const RenderResult& result,
   full["peak_memory_bytes"] = peak_memory_bytes();
   full["written"] = utc_now();
   write_file_atomically(std::filesystem::path(path).replace_extension(".json"), full.dump(2) + "\n");
+}
+
+nlohmann::json to_json(const ReconstructionStatistics& statistics) {
+  return {{"iterations", statistics.iterations},
+          {"relative_residual", statistics.relative_residual},
+          {"converged", statistics.converged},
+          {"outliers", statistics.outliers}};
 }
 
 nlohmann::json to_json(const MethodPlan& method) {

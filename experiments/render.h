@@ -42,6 +42,7 @@ void write_render(const std::filesystem::path& path, const RenderResult& result,
 /// A method's plan as manifests hold it.
 nlohmann::json to_json(const MethodPlan& method);
 nlohmann::json to_json(const RenderSettings& settings);
+nlohmann::json to_json(const ReconstructionStatistics& statistics);
 
 /// Mean of an image per channel.
 std::array<double, 3> channel_means(const RgbImage& image);

@@ -14,6 +14,7 @@ struct Command {
 Command render_command(CLI::App& parent);
 Command run_command(CLI::App& parent);
 Command report_command(CLI::App& parent);
+Command reconstruct_command(CLI::App& parent);
 Command compare_command(CLI::App& parent);
 Command info_command(CLI::App& parent);
 Command list_command(CLI::App& parent);

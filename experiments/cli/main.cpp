@@ -52,9 +52,9 @@ int run(int argc, char** argv) {
       "  gradslc compare image.exr reference.exr\n"
       "  gradslc list integrators\n"
       "Exit codes: 0 done, 1 failed, 2 bad input. COMMAND --help says more.");
-  const std::vector<Command> commands = {render_command(app),  run_command(app),  report_command(app),
-                                         compare_command(app), info_command(app), list_command(app),
-                                         validate_command(app)};
+  const std::vector<Command> commands = {render_command(app),  run_command(app),         report_command(app),
+                                         compare_command(app), reconstruct_command(app), info_command(app),
+                                         list_command(app),    validate_command(app)};
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);

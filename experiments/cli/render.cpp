@@ -39,7 +39,7 @@ struct RenderArguments {
   std::vector<std::string> overrides;
   float exposure = 0;
   std::optional<std::string> replay;
-  bool permissive = false, parts = false, debug = false, print_json = false, quiet = false;
+  bool permissive = false, parts = false, debug = false, features = false, print_json = false, quiet = false;
 };
 
 /// Reads --method, a name or a JSON object, with --set applied.
@@ -213,7 +213,8 @@ int render(const RenderArguments& arguments) {
   const Budget budget = arguments.seconds ? Budget{Budget::Kind::seconds, *arguments.seconds}
                                           : Budget{Budget::Kind::spp, static_cast<double>(arguments.spp)};
   const RenderResult result = render_method(
-      scene, *method, settings, budget, {.parts = arguments.parts, .debug = arguments.debug},
+      scene, *method, settings, budget,
+      {.parts = arguments.parts, .debug = arguments.debug, .features = arguments.features},
       [&](double fraction, double eta, const std::string& what) { console.progress(fraction, eta, what); });
   if (png)
     write_file_atomically(output, encode_png(result.image, std::exp2(arguments.exposure)));
@@ -274,6 +275,8 @@ Command render_command(CLI::App& parent) {
   app.add_option("--components", arguments->components, "Light to show: emission,direct,indirect (default: all)");
   app.add_flag("--permissive", arguments->permissive, "Note what the scene file has that is not recognised, and go on");
   app.add_flag("--parts", arguments->parts, "Also write the image split by how the light came");
+  app.add_flag("--features", arguments->features,
+               "Also write albedo, normal and depth, which some reconstructions need");
   CLI::Option* debug = app.add_flag("--debug", arguments->debug,
                                     "Also write what each pixel's samples cost, and its largest contribution");
   app.add_option("--exposure", arguments->exposure, "Stops added in a .png")

@@ -1,6 +1,7 @@
 #include "reconstruction/buffers.h"
 #include "reconstruction/local_regression.h"
 #include "reconstruction/methods.h"
+#include "reconstruction/weights.h"
 
 namespace gradslc {
 namespace {
@@ -23,7 +24,9 @@ class Denoise final : public Reconstruction {
     check_features(input.features, input.combined.primal.resolution());
     RegressionOptions options = options_;
     options.first_order = kind_ == Kind::regression;
-    return cross_filter({input.halves[0].primal, {}}, {input.halves[1].primal, {}}, input, options);
+    const ReconstructionBuffers &a = input.halves[0], &b = input.halves[1];
+    const auto filtered = cross_filter(a.primal, b.primal, input.features, options);
+    return average_by_counts({filtered[0], {}}, a.primal_count, {filtered[1], {}}, b.primal_count);
   }
 
  private:

@@ -167,12 +167,10 @@ Image<float> variance_of_halves(const RgbImage& a, const RgbImage& b) {
   return boxes;
 }
 
-ReconstructionResult cross_filter(const ReconstructionResult& a, const ReconstructionResult& b,
-                                  const ReconstructionInput& input, const RegressionOptions& options) {
-  const Image<float> variance = variance_of_halves(a.image, b.image);
-  const ReconstructionResult filtered_a{filter({a.image, b.image, variance, input.features}, options), a.statistics},
-      filtered_b{filter({b.image, a.image, variance, input.features}, options), b.statistics};
-  return average_by_counts(filtered_a, input.halves[0].primal_count, filtered_b, input.halves[1].primal_count);
+std::array<RgbImage, 2> cross_filter(const RgbImage& a, const RgbImage& b, const FeatureBuffers& features,
+                                     const RegressionOptions& options) {
+  const Image<float> variance = variance_of_halves(a, b);
+  return {filter({a, b, variance, features}, options), filter({b, a, variance, features}, options)};
 }
 
 }  // namespace gradslc

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "reconstruction/reconstruction.h"
 
 namespace gradslc {
@@ -29,8 +31,8 @@ RgbImage filter(const FilterInput& input, const RegressionOptions& options);
 /// half their squared differences.
 Image<float> variance_of_halves(const RgbImage& a, const RgbImage& b);
 
-/// Both halves, each filtered with the other as its guide, as one image.
-ReconstructionResult cross_filter(const ReconstructionResult& a, const ReconstructionResult& b,
-                                  const ReconstructionInput& input, const RegressionOptions& options);
+/// Both halves, each filtered with the other as its guide.
+std::array<RgbImage, 2> cross_filter(const RgbImage& a, const RgbImage& b, const FeatureBuffers& features,
+                                     const RegressionOptions& options);
 
 }  // namespace gradslc

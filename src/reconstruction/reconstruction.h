@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -37,6 +38,7 @@ struct ReconstructionStatistics {
   int iterations = 0;
   double relative_residual = 0;  ///< largest of the channels, of the true residual b - A x
   bool converged = true;
+  std::size_t outliers = 0;  ///< values of primal and gradients that were left out
 };
 
 struct ReconstructionResult {

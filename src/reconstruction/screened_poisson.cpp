@@ -1,45 +1,68 @@
 #include "reconstruction/screened_poisson.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/parallel.h"
+#include "reconstruction/multigrid.h"
 
 namespace gradslc {
 namespace {
 
-/// One channel, row-major. Double: a small weight of the primal makes the matrix too ill-conditioned for float.
+constexpr std::size_t k_channels = 3;
+/// One value per channel.
+using Triple = std::array<double, k_channels>;
+/// Planes, one channel after the other, row-major. Double: a small weight of the primal makes the matrix too
+/// ill-conditioned for float.
 using Field = std::vector<double>;
 
-constexpr std::size_t k_pixels_per_chunk = 32768;
+constexpr std::size_t k_pixels_per_chunk = 16384;
 
 std::size_t rows_per_chunk(Resolution resolution) {
   return std::max<std::size_t>(1, k_pixels_per_chunk / static_cast<std::size_t>(resolution.width));
 }
 
-/// Sum of row_sum(y) over all rows in a fixed order, on all threads.
-template <class RowSum>
-double sum_over_rows(Resolution resolution, const RowSum& row_sum) {
-  return parallel_sum<double>(static_cast<std::size_t>(resolution.height), rows_per_chunk(resolution),
-                              [&](std::size_t begin, std::size_t end) {
-                                double sum = 0;
-                                for (std::size_t y = begin; y < end; ++y) sum += row_sum(y);
-                                return sum;
-                              });
-}
-
-/// Two sums over the same pixels.
-struct Dots {
-  double residual = 0, preconditioned = 0;
-  Dots& operator+=(const Dots& other) {
-    residual += other.residual;
-    preconditioned += other.preconditioned;
+/// Sums over a part of each channel's plane.
+struct Sums {
+  Triple of = {};
+  double& operator[](std::size_t channel) { return of[channel]; }
+  Sums& operator+=(const Sums& other) {
+    for (std::size_t c = 0; c < k_channels; ++c) of[c] += other.of[c];
     return *this;
   }
 };
+
+/// Sum of row_sum(y, channel) over all rows in a fixed order, on all threads.
+template <class RowSum>
+Triple sum_over_rows(Resolution resolution, const RowSum& row_sum) {
+  const auto rows = static_cast<std::size_t>(resolution.height);
+  return parallel_sum<Sums>(rows, rows_per_chunk(resolution),
+                            [&](std::size_t begin, std::size_t end) {
+                              Sums sums;
+                              for (std::size_t y = begin; y < end; ++y)
+                                for (std::size_t c = 0; c < k_channels; ++c) sums[c] += row_sum(y, c);
+                              return sums;
+                            })
+      .of;
+}
+
+/// Sum of value(i, channel) over all pixels, i in the field, in a fixed order, on all threads.
+template <class Value>
+Triple sum_over_pixels(Resolution resolution, const Value& value) {
+  const std::size_t width = static_cast<std::size_t>(resolution.width), plane = resolution.pixels();
+  return sum_over_rows(resolution, [&](std::size_t y, std::size_t c) {
+    const std::size_t first = c * plane + y * width;
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (std::size_t i = first; i < first + width; ++i) sum += value(i, c);
+    return sum;
+  });
+}
 
 /// The matrix A = diag(w_p) + Dx^T diag(w_x) Dx + Dy^T diag(w_y) Dy, symmetric, never negative definite, never stored.
 class NormalMatrix {
@@ -52,52 +75,28 @@ class NormalMatrix {
   Resolution resolution() const { return resolution_; }
 
   /// product = A field; returns field . product.
-  double apply(const Field& field, Field& product) const {
-    return sum_over_rows(resolution_, [&](std::size_t y) { return apply_row(y, field, product); });
-  }
-
-  /// 1 / A(i,i); 0 where the diagonal, and so all of row i, is 0.
-  Field inverse_diagonal() const {
-    Field inverse(resolution_.pixels());
-    const std::size_t width = no_weights_.size();
-    parallel_for(static_cast<std::size_t>(resolution_.height), rows_per_chunk(resolution_),
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t y = begin; y < end; ++y) {
-                     const Row row = weights_of_row(y);
-                     for (std::size_t x = 0; x < width; ++x) {
-                       double diagonal = static_cast<double>(row.primal[x]) + row.above[x] + row.below[x];
-                       if (x > 0) diagonal += row.right[x - 1];
-                       if (x + 1 < width) diagonal += row.right[x];
-                       inverse[y * width + x] = diagonal > 0 ? 1 / diagonal : 0;
-                     }
-                   }
-                 });
-    return inverse;
+  Triple apply(const Field& field, Field& product) const {
+    return sum_over_rows(resolution_, [&](std::size_t y, std::size_t c) {
+      const std::size_t plane = c * resolution_.pixels();
+      return apply_row(y, &field[plane], &product[plane]);
+    });
   }
 
  private:
-  /// Weights that meet in a row; `above` and `below` are 0 at the image's border.
-  struct Row {
-    const float *primal, *right, *above, *below;
-  };
-  Row weights_of_row(std::size_t y) const {
+  double apply_row(std::size_t y, const double* field, double* product) const {
     const std::size_t width = no_weights_.size(), first = y * width;
-    const bool has_next = y + 1 < static_cast<std::size_t>(resolution_.height);
-    return {&weights_.primal[first], &weights_.dx[first], y > 0 ? &weights_.dy[first - width] : no_weights_.data(),
-            has_next ? &weights_.dy[first] : no_weights_.data()};
-  }
-
-  double apply_row(std::size_t y, const Field& field, Field& product) const {
-    const std::size_t width = no_weights_.size(), first = y * width;
-    const Row row = weights_of_row(y);
-    const double* here = &field[first];
-    const double* above = y > 0 ? here - width : here;
-    const double* below = y + 1 < static_cast<std::size_t>(resolution_.height) ? here + width : here;
-    double* out = &product[first];
+    const bool has_previous = y > 0, has_next = y + 1 < static_cast<std::size_t>(resolution_.height);
+    const float *primal = &weights_.primal[first], *right = &weights_.dx[first];
+    const float* to_above = has_previous ? &weights_.dy[first - width] : no_weights_.data();
+    const float* to_below = has_next ? &weights_.dy[first] : no_weights_.data();
+    const double* here = field + first;
+    const double* above = has_previous ? here - width : here;
+    const double* below = has_next ? here + width : here;
+    double* out = product + first;
     for (std::size_t x = 0; x < width; ++x)
-      out[x] = row.primal[x] * here[x] + row.above[x] * (here[x] - above[x]) + row.below[x] * (here[x] - below[x]);
-    for (std::size_t x = 1; x < width; ++x) out[x] += row.right[x - 1] * (here[x] - here[x - 1]);
-    for (std::size_t x = 0; x + 1 < width; ++x) out[x] += row.right[x] * (here[x] - here[x + 1]);
+      out[x] = primal[x] * here[x] + to_above[x] * (here[x] - above[x]) + to_below[x] * (here[x] - below[x]);
+    for (std::size_t x = 1; x < width; ++x) out[x] += right[x - 1] * (here[x] - here[x - 1]);
+    for (std::size_t x = 0; x + 1 < width; ++x) out[x] += right[x] * (here[x] - here[x + 1]);
     double dot = 0;
 #pragma omp simd reduction(+ : dot)
     for (std::size_t x = 0; x < width; ++x) dot += here[x] * out[x];
@@ -109,152 +108,185 @@ class NormalMatrix {
   std::vector<float> no_weights_;
 };
 
-/// residual = b - A image of one channel, summed from the terms' own residuals, so that an image that fulfils all terms
-/// leaves none; returns its Euclidean norm.
-double compute_residual(const ScreenedPoissonProblem& problem, int channel, const Field& image, Field& residual) {
+Triple roots(Triple squares) {
+  for (double& value : squares) value = std::sqrt(value);
+  return squares;
+}
+
+/// residual = b - A image, summed from the terms' own residuals, so that an image that fulfils all terms leaves none;
+/// returns its Euclidean norms.
+Triple compute_residual(const ScreenedPoissonProblem& problem, const Field& image, Field& residual) {
   const Resolution resolution = problem.primal.resolution();
   const auto width = static_cast<std::size_t>(resolution.width), height = static_cast<std::size_t>(resolution.height);
   const PoissonWeights& weights = problem.weights;
-  // What the difference from pixel i to pixel j lacks, times its weight.
-  const auto flux = [&](const RgbImage& gradient, const Image<float>& weight, std::size_t i, std::size_t j) {
-    return static_cast<double>(weight[i]) * (static_cast<double>(gradient[i][channel]) - (image[j] - image[i]));
-  };
-  const double square_sum = sum_over_rows(resolution, [&](std::size_t y) {
+  return roots(sum_over_rows(resolution, [&](std::size_t y, std::size_t c) {
+    const double* plane = &image[c * resolution.pixels()];
+    const int channel = static_cast<int>(c);
+    // What the difference from pixel i to pixel j lacks, times its weight.
+    const auto flux = [&](const RgbImage& gradient, const Image<float>& weight, std::size_t i, std::size_t j) {
+      return static_cast<double>(weight[i]) * (static_cast<double>(gradient[i][channel]) - (plane[j] - plane[i]));
+    };
     double row_sum = 0;
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       double value =
-          static_cast<double>(weights.primal[i]) * (static_cast<double>(problem.primal[i][channel]) - image[i]);
+          static_cast<double>(weights.primal[i]) * (static_cast<double>(problem.primal[i][channel]) - plane[i]);
       if (x > 0) value += flux(problem.dx, weights.dx, i - 1, i);
       if (x + 1 < width) value -= flux(problem.dx, weights.dx, i, i + 1);
       if (y > 0) value += flux(problem.dy, weights.dy, i - width, i);
       if (y + 1 < height) value -= flux(problem.dy, weights.dy, i, i + width);
-      residual[i] = value;
+      residual[c * resolution.pixels() + i] = value;
       row_sum += value * value;
     }
     return row_sum;
-  });
-  return std::sqrt(square_sum);
+  }));
 }
 
-/// Conjugate gradients with Jacobi's preconditioner (Saad 2003, "Iterative Methods for Sparse Linear Systems", 9.2).
+/// Conjugate gradients (Saad 2003, "Iterative Methods for Sparse Linear Systems", 9.2), preconditioned by a multigrid
+/// cycle, on three channels at once, each with its own steps.
 class ConjugateGradients {
  public:
-  explicit ConjugateGradients(const NormalMatrix& matrix)
-      : matrix_(matrix),
-        inverse_diagonal_(matrix.inverse_diagonal()),
-        direction_(matrix.resolution().pixels()),
-        product_(matrix.resolution().pixels()) {}
+  explicit ConjugateGradients(const PoissonWeights& weights)
+      : matrix_(weights),
+        multigrid_(weights),
+        direction_(k_channels * weights.primal.size()),
+        product_(direction_.size()) {}
 
-  /// Improves `solution`, whose residual is `residual`, until the residual's norm, as the recurrence has it, is at most
-  /// `target`. Returns the iterations taken, at most `max_iterations`.
-  int improve(Field& solution, Field& residual, double target, int max_iterations) {
-    Dots dots = precondition_and_measure(residual);
-    std::fill(direction_.begin(), direction_.end(), 0.0);
-    double beta = 0;
+  /// Improves `solution`, whose residual is `residual` with norms `norms`, until the residual's norms, as the
+  /// recurrence has them, are at most `targets`. Returns the iterations taken, at most `max_iterations`.
+  int improve(Field& solution, Field& residual, Triple norms, const Triple& targets, int max_iterations) {
+    const Resolution resolution = matrix_.resolution();
+    Triple previous = {};  // residual . M^-1 residual
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      if (std::sqrt(dots.residual) <= target) return iteration;
-      update_direction(residual, beta);
-      const double curvature = matrix_.apply(direction_, product_);
-      if (!(curvature > 0)) return iteration;  // rounding is all that is left of the direction
-      const double previous = dots.preconditioned;
-      dots = step(solution, residual, previous / curvature);
-      beta = dots.preconditioned / previous;
+      if (all_within(norms, targets)) return iteration;
+      const std::vector<float>& preconditioned = precondition(residual, norms);
+      const Triple dots = sum_over_pixels(
+          resolution, [&](std::size_t i, std::size_t) { return residual[i] * static_cast<double>(preconditioned[i]); });
+      Triple beta = {}, length = {};
+      for (std::size_t c = 0; c < k_channels; ++c)
+        if (previous[c] > 0) beta[c] = norms[c] * dots[c] / previous[c];
+      sum_over_pixels(resolution, [&](std::size_t i, std::size_t c) {
+        return direction_[i] = norms[c] * static_cast<double>(preconditioned[i]) + beta[c] * direction_[i];
+      });
+      const Triple curvature = matrix_.apply(direction_, product_);
+      bool moves = false;
+      for (std::size_t c = 0; c < k_channels; ++c) {
+        previous[c] = norms[c] * dots[c];
+        if (!(curvature[c] > 0)) continue;  // rounding is all that is left of the direction
+        length[c] = previous[c] / curvature[c];
+        moves = true;
+      }
+      if (!moves) return iteration;
+      norms = roots(sum_over_pixels(resolution, [&](std::size_t i, std::size_t c) {
+        solution[i] += length[c] * direction_[i];
+        residual[i] -= length[c] * product_[i];
+        return residual[i] * residual[i];
+      }));
     }
     return max_iterations;
   }
 
  private:
-  template <class Body>
-  Dots sum_dots(const Body& body) const {
-    return parallel_sum<Dots>(direction_.size(), k_pixels_per_chunk, body);
+  static bool all_within(const Triple& norms, const Triple& targets) {
+    for (std::size_t c = 0; c < k_channels; ++c)
+      if (norms[c] > targets[c]) return false;
+    return true;
   }
 
-  Dots precondition_and_measure(const Field& residual) const {
-    return sum_dots([&](std::size_t begin, std::size_t end) {
-      double square = 0, preconditioned = 0;
-#pragma omp simd reduction(+ : square, preconditioned)
-      for (std::size_t i = begin; i < end; ++i) {
-        square += residual[i] * residual[i];
-        preconditioned += residual[i] * residual[i] * inverse_diagonal_[i];
-      }
-      return Dots{square, preconditioned};
+  /// M^-1 residual / norms.
+  const std::vector<float>& precondition(const Field& residual, const Triple& norms) {
+    std::vector<float>& rhs = multigrid_.right_hand_side();
+    Triple scale = {};
+    for (std::size_t c = 0; c < k_channels; ++c)
+      if (norms[c] > 0) scale[c] = 1 / norms[c];
+    sum_over_pixels(matrix_.resolution(), [&](std::size_t i, std::size_t c) {
+      rhs[i] = static_cast<float>(scale[c] * residual[i]);
+      return 0.0;
     });
+    return multigrid_.precondition();
   }
 
-  void update_direction(const Field& residual, double beta) {
-    parallel_for(direction_.size(), k_pixels_per_chunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        direction_[i] = inverse_diagonal_[i] * residual[i] + beta * direction_[i];
-    });
-  }
-
-  Dots step(Field& solution, Field& residual, double length) const {
-    return sum_dots([&](std::size_t begin, std::size_t end) {
-      double square = 0, preconditioned = 0;
-#pragma omp simd reduction(+ : square, preconditioned)
-      for (std::size_t i = begin; i < end; ++i) {
-        solution[i] += length * direction_[i];
-        residual[i] -= length * product_[i];
-        square += residual[i] * residual[i];
-        preconditioned += residual[i] * residual[i] * inverse_diagonal_[i];
-      }
-      return Dots{square, preconditioned};
-    });
-  }
-
-  const NormalMatrix& matrix_;
-  Field inverse_diagonal_, direction_, product_;
+  NormalMatrix matrix_;
+  Multigrid multigrid_;
+  Field direction_, product_;
 };
 
-/// The primal, which is near the solution; 0 where it has no weight.
-void fill_start(const ScreenedPoissonProblem& problem, int channel, Field& image) {
-  for (std::size_t i = 0; i < image.size(); ++i)
-    image[i] = problem.weights.primal[i] > 0 ? static_cast<double>(problem.primal[i][channel]) : 0.0;
+/// The start that is given, or the primal, and 0 where it has no weight.
+Field start_of(const ScreenedPoissonProblem& problem) {
+  const std::size_t pixels = problem.primal.size();
+  const RgbImage& start = problem.start ? *problem.start : problem.primal;
+  Field image(k_channels * pixels);
+  for (std::size_t c = 0; c < k_channels; ++c)
+    for (std::size_t i = 0; i < pixels; ++i)
+      if (problem.start || problem.weights.primal[i] > 0)
+        image[c * pixels + i] = static_cast<double>(start[i][static_cast<int>(c)]);
+  return image;
 }
 
-/// Leaves the solution of one channel in `image`; `residual` is scratch.
-ReconstructionStatistics solve_channel(const ScreenedPoissonProblem& problem, int channel, const SolverOptions& options,
-                                       ConjugateGradients& gradients, Field& image, Field& residual) {
-  std::fill(image.begin(), image.end(), 0.0);
-  const double norm = compute_residual(problem, channel, image, residual);  // of b: the image is zero
-  if (norm == 0) return {};
-  const double target = options.relative_residual * norm;
-  fill_start(problem, channel, image);
-  ReconstructionStatistics statistics;
-  double previous = std::numeric_limits<double>::infinity();
-  while (true) {  // the recurrence drifts away from the true residual: begin again from there, as long as it helps
-    const double current = compute_residual(problem, channel, image, residual);
-    statistics.relative_residual = current / norm;
-    statistics.converged = current <= target;
-    if (statistics.converged || statistics.iterations >= options.max_iterations || current > 0.5 * previous)
-      return statistics;
-    previous = current;
-    statistics.iterations += gradients.improve(image, residual, target, options.max_iterations - statistics.iterations);
-  }
+RgbImage image_of(const Field& field, Resolution resolution) {
+  RgbImage image(resolution);
+  const std::size_t pixels = image.size();
+  for (std::size_t i = 0; i < pixels; ++i)
+    image[i] = Rgb(static_cast<float>(field[i]), static_cast<float>(field[pixels + i]),
+                   static_cast<float>(field[2 * pixels + i]));
+  return image;
 }
 
-void set_channel(RgbImage& image, int channel, const Field& values) {
-  float Rgb::*const member = channel == 0 ? &Rgb::r : channel == 1 ? &Rgb::g : &Rgb::b;
-  for (std::size_t i = 0; i < values.size(); ++i) image[i].*member = static_cast<float>(values[i]);
+/// The weights times a power of two that makes the largest about 1, where floats have room to both sides; nothing where
+/// that is not needed.
+std::optional<PoissonWeights> scaled_weights(const PoissonWeights& weights) {
+  constexpr int k_room = 32;
+  float largest = 0;
+  for (const Image<float>* term : {&weights.primal, &weights.dx, &weights.dy})
+    for (const float weight : *term) largest = std::max(largest, weight);
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  if (std::abs(exponent) <= k_room) return std::nullopt;
+  PoissonWeights scaled = weights;
+  for (Image<float>* term : {&scaled.primal, &scaled.dx, &scaled.dy})
+    for (float& weight : *term) weight = std::ldexp(weight, -exponent);
+  return scaled;
+}
+
+/// The largest of |residual| / |b|; 0 for channels whose b is 0.
+double largest_ratio(const Triple& residual, const Triple& b) {
+  double largest = 0;
+  for (std::size_t c = 0; c < k_channels; ++c)
+    if (b[c] > 0) largest = std::max(largest, residual[c] / b[c]);
+  return largest;
 }
 
 }  // namespace
 
-ReconstructionResult solve(const ScreenedPoissonProblem& problem, const SolverOptions& options) {
+ReconstructionResult solve(const ScreenedPoissonProblem& given, const SolverOptions& options) {
+  const std::optional<PoissonWeights> scaled = scaled_weights(given.weights);
+  const ScreenedPoissonProblem problem{given.primal, given.dx, given.dy, scaled ? *scaled : given.weights, given.start};
   const Resolution resolution = problem.primal.resolution();
-  const NormalMatrix matrix(problem.weights);
-  ConjugateGradients gradients(matrix);
-  Field image(resolution.pixels()), residual(resolution.pixels());
-  ReconstructionResult result{.image = RgbImage(resolution), .statistics = {}};
-  for (int channel = 0; channel < 3; ++channel) {
-    const ReconstructionStatistics found = solve_channel(problem, channel, options, gradients, image, residual);
-    set_channel(result.image, channel, image);
-    result.statistics.iterations = std::max(result.statistics.iterations, found.iterations);
-    result.statistics.relative_residual = std::max(result.statistics.relative_residual, found.relative_residual);
-    result.statistics.converged = result.statistics.converged && found.converged;
+  Field image(k_channels * resolution.pixels()), residual(image.size());
+  const Triple b = compute_residual(problem, image, residual);
+  Triple targets = b;
+  for (double& target : targets) target *= options.relative_residual;
+
+  ReconstructionStatistics statistics;
+  if (largest_ratio(b, b) > 0) {
+    image = start_of(problem);
+    for (std::size_t c = 0; c < k_channels; ++c)
+      if (b[c] == 0)
+        std::fill_n(image.begin() + static_cast<std::ptrdiff_t>(c * resolution.pixels()), resolution.pixels(), 0.0);
+    ConjugateGradients gradients(problem.weights);
+    double previous = std::numeric_limits<double>::infinity();
+    while (true) {  // the recurrence drifts away from the true residual: begin again from there, as long as it helps
+      const Triple norms = compute_residual(problem, image, residual);
+      statistics.relative_residual = largest_ratio(norms, b);
+      statistics.converged = statistics.relative_residual <= options.relative_residual;
+      if (statistics.converged || statistics.iterations >= options.max_iterations ||
+          statistics.relative_residual > 0.5 * previous)
+        break;
+      previous = statistics.relative_residual;
+      statistics.iterations +=
+          gradients.improve(image, residual, norms, targets, options.max_iterations - statistics.iterations);
+    }
   }
-  return result;
+  return {.image = image_of(image, resolution), .statistics = statistics};
 }
 
 }  // namespace gradslc

@@ -18,6 +18,7 @@ struct PoissonWeights {
 struct ScreenedPoissonProblem {
   const RgbImage &primal, &dx, &dy;
   const PoissonWeights& weights;
+  const RgbImage* start = nullptr;  ///< an image near the solution; nullptr: the primal
 };
 
 struct SolverOptions {

@@ -206,6 +206,19 @@ TEST_F(BadInput, Images) {
   expect_refusal({"compare", "a.exr", "b.exr"}, {"16", "8"});
 }
 
+TEST_F(BadInput, Reconstruct) {
+  folder_.write("text.exr", "not an image");
+  ASSERT_EQ(run({"render", "scene.xml", "--spp", "2", "-o", "a.exr"}).exit_code, 0);
+  expect_refusal({"reconstruct", "lost.exr", "--type", "none", "-o", "b.exr"}, {"lost.exr"});
+  expect_refusal({"reconstruct", "text.exr", "--type", "none", "-o", "b.exr"}, {"text.exr"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "l3", "-o", "b.exr"}, {"l3", "l2"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "l2", "--set", "alpa=1", "-o", "b.exr"}, {"alpa", "alpha"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "l2", "--set", "alpha=-1", "-o", "b.exr"}, {"alpha"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "l2", "-o", "b.png"}, {"b.png", ".exr"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "l2", "-o", "b.exr"}, {"a.exr", "gradients"});
+  expect_refusal({"reconstruct", "a.exr", "--type", "denoise", "-o", "b.exr"}, {"features"});
+}
+
 TEST_F(BadInput, Results) {
   std::filesystem::create_directory(folder_.path() / "empty");
   expect_refusal({"report", "lost"}, {"lost"});

@@ -20,7 +20,7 @@ using nlohmann::json;
 class Commands : public fixtures::ProgramTest {};
 
 TEST_F(Commands, HelpAndVersionSucceed) {
-  for (const char* command : {"render", "run", "report", "compare", "info", "list", "validate"}) {
+  for (const char* command : {"render", "run", "report", "compare", "reconstruct", "info", "list", "validate"}) {
     const Outcome help = run({command, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find(std::string("gradslc ") + command), std::string::npos) << "no example: " << help.output;
@@ -216,6 +216,32 @@ TEST_F(Commands, CompareOfAnImageWithItselfIsZero) {
   for (const char* name : {"mse", "relmse", "relmse_trimmed", "mape", "smape", "mean_bias"})
     EXPECT_EQ(metrics.at(name), 0) << name;
   EXPECT_NE(run({"compare", "a.exr", "a.exr"}).output.find("relmse_trimmed"), std::string::npos);
+}
+
+/// What a run's file holds gives the same bits as what the run itself had.
+TEST_F(Commands, ReconstructRepeatsWhatRenderDid) {
+  const char* const method =
+      R"({"integrator": "gradslc", "vpl": {"light_paths": 40}, "reconstruction": {"type": "TYPE", "outliers": {"remove": true}}})";
+  for (const std::string type : {"none", "l2", "l1", "weighted", "feature", "denoise"}) {
+    std::string json_text = method;
+    json_text.replace(json_text.find("TYPE"), 4, type);
+    ASSERT_EQ(run({"render", "scene.xml", "--spp", "8", "--method", json_text, "-o", "run.exr"}).exit_code, 0);
+    const Outcome outcome =
+        run({"reconstruct", "run.exr", "--type", type, "--set", "outliers.remove=true", "-o", "again.exr", "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(read_exr(folder_.path() / "again.exr").image, read_exr(folder_.path() / "run.exr").image) << type;
+    const json printed = json::parse(outcome.output), manifest = json::parse(content_of(folder_.path() / "again.json"));
+    EXPECT_EQ(printed, manifest);
+    EXPECT_EQ(manifest.at("reconstruction").at("type"), type);
+    EXPECT_EQ(manifest.at("statistics").at("converged"), true);
+    const json of_run = json::parse(content_of(folder_.path() / "run.json")).at("reconstruction");
+    EXPECT_EQ(manifest.at("statistics"), of_run) << type;
+  }
+}
+
+TEST_F(Commands, RenderRecordsFeaturesWhereTheyAreAskedFor) {
+  ASSERT_EQ(run({"render", "scene.xml", "--spp", "4", "--features", "-o", "run.exr"}).exit_code, 0);
+  EXPECT_EQ(run({"reconstruct", "run.exr", "--type", "denoise", "-o", "a.exr"}).exit_code, 0);
 }
 
 TEST_F(Commands, RunWritesResultsAndReportRepeatsTheTables) {

@@ -43,8 +43,8 @@ TEST(Registry, ListsEveryMethodOnce) {
     if (entry.needs_gradients) with_gradients.insert(entry.name);
     if (entry.make()->needs_features()) with_features.insert(entry.name);
   }
-  EXPECT_EQ(names, (std::set<std::string>{"none", "l2", "weighted", "feature", "denoise"}));
-  EXPECT_EQ(with_gradients, (std::set<std::string>{"l2", "weighted", "feature"}));
+  EXPECT_EQ(names, (std::set<std::string>{"none", "l2", "l1", "weighted", "feature", "denoise"}));
+  EXPECT_EQ(with_gradients, (std::set<std::string>{"l2", "l1", "weighted", "feature"}));
   EXPECT_EQ(with_features, (std::set<std::string>{"feature", "denoise"}));
 }
 
