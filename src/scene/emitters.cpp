@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/warp.h"
+#include "scene/lights/bounding_disk.h"
 
 namespace gradslc {
 namespace {
@@ -20,8 +21,8 @@ float to_solid_angle(double pdf_area, const Normal3& n, const Vec3& to_reference
 }  // namespace
 
 Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<AreaLight>& area_lights,
-                   const std::vector<LightPtr>& lights, const BoundingSphere& scene)
-    : mesh_first_(meshes.size(), k_no_emitter), scene_(scene) {
+                   const std::vector<LightPtr>& lights, const EmissionExtent& extent)
+    : mesh_first_(meshes.size(), k_no_emitter), extent_(extent) {
   std::vector<double> weights;
   double power[3] = {0, 0, 0};
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -41,10 +42,10 @@ Emitters::Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<Ar
     }
   }
   for (const LightPtr& light : lights) {
-    const Rgb light_power = light->power(scene);
+    const Rgb light_power = light->power(extent.scene);
     if (is_black(light_power)) continue;
     lights_.push_back(light);
-    weights.push_back(luminance(light_power));
+    weights.push_back(luminance(light->power(entry_ball(extent))));
     for (int channel = 0; channel < 3; ++channel) power[channel] += light_power[channel];
   }
   by_power_ = DiscreteDistribution(weights);
@@ -113,7 +114,7 @@ EmissionSample Emitters::sample_emission(double u_select, Vec2 u_point, Vec2 u_d
   EmissionSample sample =
       choice.index < triangles_.size()
           ? sample_triangle_emission(triangles_[choice.index], u_point, u_direction)
-          : lights_[choice.index - triangles_.size()]->sample_emission(u_point, u_direction, scene_);
+          : lights_[choice.index - triangles_.size()]->sample_emission(u_point, u_direction, extent_);
   sample.power *= static_cast<float>(1 / choice.probability);
   return sample;
 }

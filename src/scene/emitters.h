@@ -28,12 +28,12 @@ using LightPtr = std::shared_ptr<const Light>;
 enum class EmitterChoice : std::uint8_t { all, without_area_lights };
 
 /// All emitters of a scene, chosen in proportion to power (luminance): every triangle of an area light is one, and so
-/// is every other light.
+/// is every other light. The power of light from infinity counts as far as it comes to where the camera looks.
 class Emitters {
  public:
   Emitters() = default;
   Emitters(const std::vector<TriangleMesh>& meshes, const std::vector<AreaLight>& area_lights,
-           const std::vector<LightPtr>& lights, const BoundingSphere& scene);
+           const std::vector<LightPtr>& lights, const EmissionExtent& extent);
 
   bool empty() const { return triangles_.empty() && lights_.empty(); }
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -73,7 +73,7 @@ class Emitters {
   std::vector<std::uint32_t> mesh_first_;    // per mesh: index of its first emissive triangle, or k_no_emitter
   std::vector<LightPtr> lights_;             // those with power
   std::vector<Environment> environments_;
-  BoundingSphere scene_;
+  EmissionExtent extent_;
   DiscreteDistribution by_power_;         // triangles, then lights
   DiscreteDistribution lights_by_power_;  // lights alone
   Rgb power_;

@@ -41,6 +41,14 @@ struct BoundingSphere {
   float radius = 0;
 };
 
+/// Where light from infinity enters the scene: through a disk as large as the scene, and more of its particles through
+/// one as large as what the camera sees, so that a wide ground does not take them all.
+struct EmissionExtent {
+  static constexpr float k_focus_share = 0.75f;  ///< of the particles
+  BoundingSphere scene;
+  BoundingSphere focus;  ///< radius 0: none
+};
+
 /// An emitter that is not a surface of the scene: environment, directional, point and spot lights. Immutable.
 class Light {
  public:
@@ -52,7 +60,7 @@ class Light {
   /// nullopt where the light does not reach the reference. Probabilities do not include the choice of the light.
   virtual std::optional<DirectSample> sample_direct(Point3 reference, Vec2 u) const = 0;
   /// Only with power() > 0.
-  virtual EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const = 0;
+  virtual EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const = 0;
 
   /// Whether rays that leave the scene can meet it: then radiance() and pdf_direct() are not 0 everywhere.
   virtual bool is_environment() const { return false; }

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "scene/focus.h"
 #include "scene/triangle.h"
 
 namespace gradslc {
@@ -216,8 +217,9 @@ Scene::Scene(SceneDescription description) : description_(std::move(description)
     crosses_.push_back(material->crosses());
   }
   for (const TriangleMesh& mesh : description_.meshes) has_crossings_ |= crosses_[mesh.material];
-  emitters_ = Emitters(description_.meshes, description_.area_lights, description_.lights, bounding_sphere());
   embree_ = std::make_unique<Embree>(description_.meshes, crosses_);
+  emitters_ = Emitters(description_.meshes, description_.area_lights, description_.lights,
+                       {.scene = bounding_sphere(), .focus = find_focus(*this)});
 }
 
 Scene::~Scene() = default;

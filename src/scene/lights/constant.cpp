@@ -20,8 +20,8 @@ std::optional<DirectSample> ConstantLight::sample_direct(Point3 /*reference*/, V
                       .infinite = true};
 }
 
-EmissionSample ConstantLight::sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const {
-  return emit_through_disk(square_to_sphere(u_direction), k_sphere * radiance_, u_point, scene);
+EmissionSample ConstantLight::sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const {
+  return emit_through_disk(square_to_sphere(u_direction), k_sphere * radiance_, u_point, extent);
 }
 
 Rgb ConstantLight::radiance(Vec3 /*direction*/) const { return radiance_; }

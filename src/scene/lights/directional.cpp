@@ -16,8 +16,8 @@ std::optional<DirectSample> DirectionalLight::sample_direct(Point3 /*reference*/
 }
 
 EmissionSample DirectionalLight::sample_emission(Vec2 u_point, Vec2 /*u_direction*/,
-                                                 const BoundingSphere& scene) const {
-  EmissionSample sample = emit_through_disk(-direction_, irradiance_, u_point, scene);
+                                                 const EmissionExtent& extent) const {
+  EmissionSample sample = emit_through_disk(-direction_, irradiance_, u_point, extent);
   sample.delta = true;
   return sample;
 }

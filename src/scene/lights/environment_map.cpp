@@ -161,11 +161,11 @@ std::optional<DirectSample> EnvironmentMap::sample_direct(Point3 /*reference*/, 
   return DirectSample{.wi = wi, .radiance = arriving, .pdf_solid_angle = pdf, .position = {}, .infinite = true};
 }
 
-EmissionSample EnvironmentMap::sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const {
+EmissionSample EnvironmentMap::sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const {
   const Vec3 towards_light = sample_direction(u_direction);
   const Rgb arriving = radiance(towards_light);
   const float pdf = pdf_of(arriving);
-  return emit_through_disk(towards_light, pdf > 0 ? arriving / pdf : Rgb(), u_point, scene);
+  return emit_through_disk(towards_light, pdf > 0 ? arriving / pdf : Rgb(), u_point, extent);
 }
 
 std::size_t EnvironmentMap::memory_bytes() const {

@@ -20,7 +20,7 @@ class EnvironmentMap final : public Light {
   std::string_view kind() const override { return kind_; }
   Rgb power(const BoundingSphere& scene) const override;
   std::optional<DirectSample> sample_direct(Point3 reference, Vec2 u) const override;
-  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const override;
+  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const override;
   bool is_environment() const override { return true; }
   Rgb radiance(Vec3 direction) const override;
   float pdf_direct(Vec3 direction) const override;

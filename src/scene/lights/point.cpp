@@ -22,7 +22,7 @@ std::optional<DirectSample> PointLight::sample_direct(Point3 reference, Vec2 /*u
   return direct_from_point(position_, intensity_, reference);
 }
 
-EmissionSample PointLight::sample_emission(Vec2 /*u_point*/, Vec2 u_direction, const BoundingSphere& /*scene*/) const {
+EmissionSample PointLight::sample_emission(Vec2 /*u_point*/, Vec2 u_direction, const EmissionExtent& /*extent*/) const {
   return {Ray{position_, square_to_sphere(u_direction)}, 4 * k_pi * intensity_, true};
 }
 

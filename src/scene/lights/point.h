@@ -13,7 +13,7 @@ class PointLight final : public Light {
   std::string_view kind() const override { return "point"; }
   Rgb power(const BoundingSphere& scene) const override;
   std::optional<DirectSample> sample_direct(Point3 reference, Vec2 u) const override;
-  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const override;
+  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const override;
 
  private:
   Point3 position_;

@@ -45,7 +45,7 @@ std::optional<DirectSample> SpotLight::sample_direct(Point3 reference, Vec2 /*u*
   return direct_from_point(position_, falloff(dot(frame_.n, from_source) / std::sqrt(squared)) * intensity_, reference);
 }
 
-EmissionSample SpotLight::sample_emission(Vec2 /*u_point*/, Vec2 u_direction, const BoundingSphere& /*scene*/) const {
+EmissionSample SpotLight::sample_emission(Vec2 /*u_point*/, Vec2 u_direction, const EmissionExtent& /*extent*/) const {
   const Vec3 local = square_to_cone(u_direction, cos_cutoff_);
   const float cone = 2 * k_pi * (1 - cos_cutoff_);
   return {Ray{position_, frame_.to_world(local)}, cone * falloff(local.z) * intensity_, true};

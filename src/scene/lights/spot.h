@@ -16,7 +16,7 @@ class SpotLight final : public Light {
   std::string_view kind() const override { return "spot"; }
   Rgb power(const BoundingSphere& scene) const override;
   std::optional<DirectSample> sample_direct(Point3 reference, Vec2 u) const override;
-  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const BoundingSphere& scene) const override;
+  EmissionSample sample_emission(Vec2 u_point, Vec2 u_direction, const EmissionExtent& extent) const override;
 
  private:
   float falloff(float cos_theta) const;
