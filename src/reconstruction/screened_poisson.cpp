@@ -5,34 +5,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/parallel.h"
-#include "reconstruction/multigrid.h"
+#include "reconstruction/field.h"
+#include "reconstruction/preconditioner.h"
 
 namespace gradslc {
 namespace {
 
-constexpr std::size_t k_channels = 3;
 /// One value per channel.
-using Triple = std::array<double, k_channels>;
-/// Planes, one channel after the other, row-major. Double: a small weight of the primal makes the matrix too
-/// ill-conditioned for float.
-using Field = std::vector<double>;
-
-constexpr std::size_t k_pixels_per_chunk = 16384;
-
-std::size_t rows_per_chunk(Resolution resolution) {
-  return std::max<std::size_t>(1, k_pixels_per_chunk / static_cast<std::size_t>(resolution.width));
-}
+using Triple = std::array<double, k_field_channels>;
 
 /// Sums over a part of each channel's plane.
 struct Sums {
   Triple of = {};
   double& operator[](std::size_t channel) { return of[channel]; }
   Sums& operator+=(const Sums& other) {
-    for (std::size_t c = 0; c < k_channels; ++c) of[c] += other.of[c];
+    for (std::size_t c = 0; c < k_field_channels; ++c) of[c] += other.of[c];
     return *this;
   }
 };
@@ -45,7 +37,7 @@ Triple sum_over_rows(Resolution resolution, const RowSum& row_sum) {
                             [&](std::size_t begin, std::size_t end) {
                               Sums sums;
                               for (std::size_t y = begin; y < end; ++y)
-                                for (std::size_t c = 0; c < k_channels; ++c) sums[c] += row_sum(y, c);
+                                for (std::size_t c = 0; c < k_field_channels; ++c) sums[c] += row_sum(y, c);
                               return sums;
                             })
       .of;
@@ -64,6 +56,13 @@ Triple sum_over_pixels(Resolution resolution, const Value& value) {
   });
 }
 
+Triple roots(Triple squares) {
+  for (double& value : squares) value = std::sqrt(value);
+  return squares;
+}
+
+double product(float a, float b) { return static_cast<double>(a) * static_cast<double>(b); }
+
 /// The matrix A = diag(w_p) + Dx^T diag(w_x) Dx + Dy^T diag(w_y) Dy, symmetric, never negative definite, never stored.
 class NormalMatrix {
  public:
@@ -74,32 +73,36 @@ class NormalMatrix {
 
   Resolution resolution() const { return resolution_; }
 
-  /// product = A field; returns field . product.
-  Triple apply(const Field& field, Field& product) const {
+  /// result = A field; returns field . result.
+  Triple apply(const Field& field, Field& result) const {
     return sum_over_rows(resolution_, [&](std::size_t y, std::size_t c) {
-      const std::size_t plane = c * resolution_.pixels();
-      return apply_row(y, &field[plane], &product[plane]);
+      const std::size_t first = c * resolution_.pixels() + y * no_weights_.size();
+      return apply_row(y, &field[first], &result[first]);
     });
   }
 
  private:
-  double apply_row(std::size_t y, const double* field, double* product) const {
-    const std::size_t width = no_weights_.size(), first = y * width;
+  double apply_row(std::size_t y, const float* here, float* __restrict out) const {
+    const std::size_t width = no_weights_.size(), first = y * width, last = width - 1;
     const bool has_previous = y > 0, has_next = y + 1 < static_cast<std::size_t>(resolution_.height);
     const float *primal = &weights_.primal[first], *right = &weights_.dx[first];
     const float* to_above = has_previous ? &weights_.dy[first - width] : no_weights_.data();
     const float* to_below = has_next ? &weights_.dy[first] : no_weights_.data();
-    const double* here = field + first;
-    const double* above = has_previous ? here - width : here;
-    const double* below = has_next ? here + width : here;
-    double* out = product + first;
-    for (std::size_t x = 0; x < width; ++x)
-      out[x] = primal[x] * here[x] + to_above[x] * (here[x] - above[x]) + to_below[x] * (here[x] - below[x]);
-    for (std::size_t x = 1; x < width; ++x) out[x] += right[x - 1] * (here[x] - here[x - 1]);
-    for (std::size_t x = 0; x + 1 < width; ++x) out[x] += right[x] * (here[x] - here[x + 1]);
+    const float* above = has_previous ? here - width : here;
+    const float* below = has_next ? here + width : here;
+    const auto without_sides = [&](std::size_t x) {
+      return primal[x] * here[x] + to_above[x] * (here[x] - above[x]) + to_below[x] * (here[x] - below[x]);
+    };
+    for (std::size_t x = 1; x < last; ++x)
+      out[x] = without_sides(x) + right[x - 1] * (here[x] - here[x - 1]) + right[x] * (here[x] - here[x + 1]);
+    out[0] = without_sides(0);
+    if (last > 0) {
+      out[0] += right[0] * (here[0] - here[1]);
+      out[last] = without_sides(last) + right[last - 1] * (here[last] - here[last - 1]);
+    }
     double dot = 0;
 #pragma omp simd reduction(+ : dot)
-    for (std::size_t x = 0; x < width; ++x) dot += here[x] * out[x];
+    for (std::size_t x = 0; x < width; ++x) dot += product(here[x], out[x]);
     return dot;
   }
 
@@ -108,127 +111,129 @@ class NormalMatrix {
   std::vector<float> no_weights_;
 };
 
-Triple roots(Triple squares) {
-  for (double& value : squares) value = std::sqrt(value);
-  return squares;
-}
-
-/// residual = b - A image, summed from the terms' own residuals, so that an image that fulfils all terms leaves none;
-/// returns its Euclidean norms.
-Triple compute_residual(const ScreenedPoissonProblem& problem, const Field& image, Field& residual) {
+/// residual = (b - A image) / unit, summed from the terms' own residuals, so that an image that fulfils all terms
+/// leaves none; 0 in channels whose unit is 0. Returns the Euclidean norms of b - A image.
+Triple compute_residual(const ScreenedPoissonProblem& problem, const PlanarField<double>& image, const Triple& unit,
+                        Field& residual) {
   const Resolution resolution = problem.primal.resolution();
   const auto width = static_cast<std::size_t>(resolution.width), height = static_cast<std::size_t>(resolution.height);
   const PoissonWeights& weights = problem.weights;
   return roots(sum_over_rows(resolution, [&](std::size_t y, std::size_t c) {
     const double* plane = &image[c * resolution.pixels()];
     const int channel = static_cast<int>(c);
+    const double scale = unit[c] > 0 ? 1 / unit[c] : 0;
     // What the difference from pixel i to pixel j lacks, times its weight.
     const auto flux = [&](const RgbImage& gradient, const Image<float>& weight, std::size_t i, std::size_t j) {
       return static_cast<double>(weight[i]) * (static_cast<double>(gradient[i][channel]) - (plane[j] - plane[i]));
     };
-    double row_sum = 0;
+    double row_sum = 0, from_left = 0;
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
+      const double to_right = x + 1 < width ? flux(problem.dx, weights.dx, i, i + 1) : 0;
       double value =
           static_cast<double>(weights.primal[i]) * (static_cast<double>(problem.primal[i][channel]) - plane[i]);
-      if (x > 0) value += flux(problem.dx, weights.dx, i - 1, i);
-      if (x + 1 < width) value -= flux(problem.dx, weights.dx, i, i + 1);
+      value += from_left - to_right;
+      from_left = to_right;
       if (y > 0) value += flux(problem.dy, weights.dy, i - width, i);
       if (y + 1 < height) value -= flux(problem.dy, weights.dy, i, i + width);
-      residual[c * resolution.pixels() + i] = value;
+      residual[c * resolution.pixels() + i] = static_cast<float>(value * scale);
       row_sum += value * value;
     }
     return row_sum;
   }));
 }
 
-/// Conjugate gradients (Saad 2003, "Iterative Methods for Sparse Linear Systems", 9.2), preconditioned by a multigrid
-/// cycle, on three channels at once, each with its own steps.
+/// Conjugate gradients (Saad 2003, "Iterative Methods for Sparse Linear Systems", 9.2) on three channels at once, each
+/// with its own steps.
 class ConjugateGradients {
  public:
-  explicit ConjugateGradients(const PoissonWeights& weights)
+  /// Plain where there is no preconditioner.
+  ConjugateGradients(const PoissonWeights& weights, Preconditioner* preconditioner)
       : matrix_(weights),
-        multigrid_(weights),
-        direction_(k_channels * weights.primal.size()),
-        product_(direction_.size()) {}
+        preconditioner_(preconditioner),
+        direction_(matrix_.resolution()),
+        product_(matrix_.resolution()) {
+    if (preconditioner) preconditioned_ = Field(matrix_.resolution());
+  }
 
-  /// Improves `solution`, whose residual is `residual` with norms `norms`, until the residual's norms, as the
-  /// recurrence has them, are at most `targets`. Returns the iterations taken, at most `max_iterations`.
-  int improve(Field& solution, Field& residual, Triple norms, const Triple& targets, int max_iterations) {
+  /// Improves `solution`, whose residual is `residual` times `unit` per channel, until the residual's norms, as the
+  /// recurrence has them, are at most `target` times unit. Returns the iterations taken, at most `max_iterations`.
+  int improve(PlanarField<double>& solution, Field& residual, const Triple& unit, double target, int max_iterations) {
     const Resolution resolution = matrix_.resolution();
+    Triple norms = roots(
+        sum_over_pixels(resolution, [&](std::size_t i, std::size_t) { return product(residual[i], residual[i]); }));
     Triple previous = {};  // residual . M^-1 residual
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      if (all_within(norms, targets)) return iteration;
-      const std::vector<float>& preconditioned = precondition(residual, norms);
-      const Triple dots = sum_over_pixels(
-          resolution, [&](std::size_t i, std::size_t) { return residual[i] * static_cast<double>(preconditioned[i]); });
+      if (*std::max_element(norms.begin(), norms.end()) <= target) return iteration;
+      if (preconditioner_) preconditioner_->apply(residual, preconditioned_, product_);
+      const Field& step = preconditioner_ ? preconditioned_ : residual;
+      const Triple dots =
+          sum_over_pixels(resolution, [&](std::size_t i, std::size_t) { return product(residual[i], step[i]); });
       Triple beta = {}, length = {};
-      for (std::size_t c = 0; c < k_channels; ++c)
-        if (previous[c] > 0) beta[c] = norms[c] * dots[c] / previous[c];
-      sum_over_pixels(resolution, [&](std::size_t i, std::size_t c) {
-        return direction_[i] = norms[c] * static_cast<double>(preconditioned[i]) + beta[c] * direction_[i];
-      });
+      for (std::size_t c = 0; c < k_field_channels; ++c)
+        if (previous[c] > 0) beta[c] = dots[c] / previous[c];
+      set_direction(step, iteration > 0 ? &beta : nullptr);
+      previous = dots;
       const Triple curvature = matrix_.apply(direction_, product_);
       bool moves = false;
-      for (std::size_t c = 0; c < k_channels; ++c) {
-        previous[c] = norms[c] * dots[c];
+      for (std::size_t c = 0; c < k_field_channels; ++c) {
         if (!(curvature[c] > 0)) continue;  // rounding is all that is left of the direction
         length[c] = previous[c] / curvature[c];
         moves = true;
       }
       if (!moves) return iteration;
       norms = roots(sum_over_pixels(resolution, [&](std::size_t i, std::size_t c) {
-        solution[i] += length[c] * direction_[i];
-        residual[i] -= length[c] * product_[i];
-        return residual[i] * residual[i];
+        solution[i] += length[c] * unit[c] * static_cast<double>(direction_[i]);
+        residual[i] -= static_cast<float>(length[c]) * product_[i];
+        return product(residual[i], residual[i]);
       }));
     }
     return max_iterations;
   }
 
  private:
-  static bool all_within(const Triple& norms, const Triple& targets) {
-    for (std::size_t c = 0; c < k_channels; ++c)
-      if (norms[c] > targets[c]) return false;
-    return true;
-  }
-
-  /// M^-1 residual / norms.
-  const std::vector<float>& precondition(const Field& residual, const Triple& norms) {
-    std::vector<float>& rhs = multigrid_.right_hand_side();
-    Triple scale = {};
-    for (std::size_t c = 0; c < k_channels; ++c)
-      if (norms[c] > 0) scale[c] = 1 / norms[c];
-    sum_over_pixels(matrix_.resolution(), [&](std::size_t i, std::size_t c) {
-      rhs[i] = static_cast<float>(scale[c] * residual[i]);
-      return 0.0;
+  /// direction = step + beta direction; without `beta`, step.
+  void set_direction(const Field& step, const Triple* beta) {
+    const Resolution resolution = matrix_.resolution();
+    for_each_channel_row(resolution, [&](int, std::size_t first) {
+      const float *from = &step[first], factor = beta ? static_cast<float>((*beta)[first / resolution.pixels()]) : 0;
+      float* __restrict row = &direction_[first];
+      const auto width = static_cast<std::size_t>(resolution.width);
+      if (!beta)
+        std::copy_n(from, width, row);
+      else
+        for (std::size_t x = 0; x < width; ++x) row[x] = from[x] + factor * row[x];
     });
-    return multigrid_.precondition();
   }
 
   NormalMatrix matrix_;
-  Multigrid multigrid_;
-  Field direction_, product_;
+  Preconditioner* preconditioner_;
+  Field direction_, product_, preconditioned_;
 };
 
-/// The start that is given, or the primal, and 0 where it has no weight.
-Field start_of(const ScreenedPoissonProblem& problem) {
-  const std::size_t pixels = problem.primal.size();
+/// The start that is given, or the primal, and 0 where it has no weight, or in channels that are not `used`.
+void set_start(const ScreenedPoissonProblem& problem, const Triple& used, PlanarField<double>& image) {
   const RgbImage& start = problem.start ? *problem.start : problem.primal;
-  Field image(k_channels * pixels);
-  for (std::size_t c = 0; c < k_channels; ++c)
-    for (std::size_t i = 0; i < pixels; ++i)
-      if (problem.start || problem.weights.primal[i] > 0)
-        image[c * pixels + i] = static_cast<double>(start[i][static_cast<int>(c)]);
-  return image;
+  const Resolution resolution = start.resolution();
+  for_each_channel_row(resolution, [&](int y, std::size_t first) {
+    const std::size_t channel = first / resolution.pixels(), pixel = resolution.index({0, y});
+    for (std::size_t x = 0; x < static_cast<std::size_t>(resolution.width); ++x) {
+      const bool known = used[channel] > 0 && (problem.start || problem.weights.primal[pixel + x] > 0);
+      image[first + x] = known ? static_cast<double>(start[pixel + x][static_cast<int>(channel)]) : 0;
+    }
+  });
 }
 
-RgbImage image_of(const Field& field, Resolution resolution) {
+RgbImage image_of(const PlanarField<double>& field, Resolution resolution) {
   RgbImage image(resolution);
   const std::size_t pixels = image.size();
-  for (std::size_t i = 0; i < pixels; ++i)
-    image[i] = Rgb(static_cast<float>(field[i]), static_cast<float>(field[pixels + i]),
-                   static_cast<float>(field[2 * pixels + i]));
+  for_each_row(resolution, [&](int y) {
+    for (int x = 0; x < resolution.width; ++x) {
+      const std::size_t i = resolution.index({x, y});
+      image[i] = Rgb(static_cast<float>(field[i]), static_cast<float>(field[pixels + i]),
+                     static_cast<float>(field[2 * pixels + i]));
+    }
+  });
   return image;
 }
 
@@ -250,7 +255,7 @@ std::optional<PoissonWeights> scaled_weights(const PoissonWeights& weights) {
 /// The largest of |residual| / |b|; 0 for channels whose b is 0.
 double largest_ratio(const Triple& residual, const Triple& b) {
   double largest = 0;
-  for (std::size_t c = 0; c < k_channels; ++c)
+  for (std::size_t c = 0; c < k_field_channels; ++c)
     if (b[c] > 0) largest = std::max(largest, residual[c] / b[c]);
   return largest;
 }
@@ -261,29 +266,30 @@ ReconstructionResult solve(const ScreenedPoissonProblem& given, const SolverOpti
   const std::optional<PoissonWeights> scaled = scaled_weights(given.weights);
   const ScreenedPoissonProblem problem{given.primal, given.dx, given.dy, scaled ? *scaled : given.weights, given.start};
   const Resolution resolution = problem.primal.resolution();
-  Field image(k_channels * resolution.pixels()), residual(image.size());
-  const Triple b = compute_residual(problem, image, residual);
-  Triple targets = b;
-  for (double& target : targets) target *= options.relative_residual;
+  PlanarField<double> image(resolution);
+  Field residual(resolution);
+  set_start(problem, {}, image);
+  const Triple b = compute_residual(problem, image, {}, residual);
+  Triple unit = b;  // residuals have norms near 1 in it, pixels' a size that floats have room around
+  const double pixels_root = std::sqrt(static_cast<double>(resolution.pixels()));
+  for (double& value : unit) value /= pixels_root;
 
   ReconstructionStatistics statistics;
   if (largest_ratio(b, b) > 0) {
-    image = start_of(problem);
-    for (std::size_t c = 0; c < k_channels; ++c)
-      if (b[c] == 0)
-        std::fill_n(image.begin() + static_cast<std::ptrdiff_t>(c * resolution.pixels()), resolution.pixels(), 0.0);
-    ConjugateGradients gradients(problem.weights);
+    set_start(problem, b, image);
+    const std::unique_ptr<Preconditioner> preconditioner =
+        options.preconditioned ? make_preconditioner(problem.weights) : nullptr;
+    ConjugateGradients gradients(problem.weights, preconditioner.get());
     double previous = std::numeric_limits<double>::infinity();
     while (true) {  // the recurrence drifts away from the true residual: begin again from there, as long as it helps
-      const Triple norms = compute_residual(problem, image, residual);
-      statistics.relative_residual = largest_ratio(norms, b);
+      statistics.relative_residual = largest_ratio(compute_residual(problem, image, unit, residual), b);
       statistics.converged = statistics.relative_residual <= options.relative_residual;
       if (statistics.converged || statistics.iterations >= options.max_iterations ||
           statistics.relative_residual > 0.5 * previous)
         break;
       previous = statistics.relative_residual;
-      statistics.iterations +=
-          gradients.improve(image, residual, norms, targets, options.max_iterations - statistics.iterations);
+      statistics.iterations += gradients.improve(image, residual, unit, options.relative_residual * pixels_root,
+                                                 options.max_iterations - statistics.iterations);
     }
   }
   return {.image = image_of(image, resolution), .statistics = statistics};

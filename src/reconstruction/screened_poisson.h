@@ -24,6 +24,7 @@ struct ScreenedPoissonProblem {
 struct SolverOptions {
   double relative_residual = 1e-5;  ///< |b - A I| / |b| (Euclidean, per channel) at which to stop
   int max_iterations = 20000;       ///< per channel
+  bool preconditioned = true;       ///< false: plain conjugate gradients, to compare with
 };
 
 /// Solves A I = b, the normal equations, to the residual that is asked for or as far as iterations allow. Statistics:
