@@ -39,6 +39,9 @@ class GradientStochasticLightcuts final : public Integrator {
     v.group("block", "pixels that share random numbers: block, and random_replay by descent", [&] {
       v.integer("width", block_.width, {1, 1024}, "pixels", "columns of a block");
       v.integer("height", block_.height, {1, 1024}, "pixels", "rows of a block");
+      v.boolean("share_rays", share_rays_,
+                "false: a block's pixels share the choice of VPLs alone; their rays through f_c(x) and next-event "
+                "estimates are independent, whose noise is then no blotch of a block's size, but in gradients, too");
     });
     v.choice("gather", gather_kind_, {"descent", "tile"},
              "how VPLs are selected: by descent from a cut (as published), or among a tile's candidates");
@@ -236,6 +239,8 @@ class GradientStochasticLightcuts final : public Integrator {
       PathLog* const log = view.logged.any() ? view.logged.begin(pixel, worker.logs[i]) : nullptr;
       if (log) log->append(worker.region.log(pixel), 1), log->add_selection(0, node_share(worker, tile));
       samples.push_back(begin_sample(worker, pixel, random, log));
+      if (shift_ == Shift::block && !share_rays_)
+        samples.back().context.random = random.branch(static_cast<std::uint32_t>(i));
     }
     if (shift_ == Shift::block)
       worker.gatherer.gather_together(samples, effort, random);
@@ -292,6 +297,7 @@ class GradientStochasticLightcuts final : public Integrator {
   Shift shift_ = Shift::reconnection;
   Stencil stencil_ = Stencil::forward;
   Resolution block_{4, 4};
+  bool share_rays_ = true;
   Gather gather_kind_ = Gather::descent;
   int cut_size_ = 10;
   TileParameters tile_;

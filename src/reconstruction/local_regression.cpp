@@ -169,10 +169,10 @@ class Window {
     const Row guide = row(k_guide), guide_variance = row(k_guide_variance);
     const Row vr = row(k_value_r), vg = row(k_value_g), vb = row(k_value_b);
     const float* used = planes_[k_used] + first;
-    float *__restrict c3 = column(3), *__restrict c4 = column(4), *__restrict c5 = column(5);
-    float *__restrict c6 = column(6), *__restrict c7 = column(7), *__restrict c8 = column(8);
-    float *__restrict c9 = column(9), *__restrict c10 = column(10), *__restrict c11 = column(11);
-    float *__restrict c12 = column(12), *__restrict c13 = column(13), *__restrict weights = &weights_[lane];
+    float* __restrict c3 = column(3), * __restrict c4 = column(4), * __restrict c5 = column(5);
+    float* __restrict c6 = column(6), * __restrict c7 = column(7), * __restrict c8 = column(8);
+    float* __restrict c9 = column(9), * __restrict c10 = column(10), * __restrict c11 = column(11);
+    float* __restrict c12 = column(12), * __restrict c13 = column(13), * __restrict weights = &weights_[lane];
     const float least_depth2 = k_depth_distance * depth.centre * k_depth_distance * depth.centre + 1e-30f;
     const float least_guide2 = k_least_variance * guide.centre * guide.centre + 1e-30f;
 #pragma omp simd
@@ -182,8 +182,8 @@ class Window {
       const float dd = depth.difference(x), dg = guide.difference(x);
       const float depth2 = least_depth2 + depth_variance.sum(x), guide2 = least_guide2 + guide_variance.sum(x);
       const float distance = (dnx * dnx + dny * dny + dnz * dnz) / (k_normal_distance2 + nv.sum(x)) +
-                             (dar * dar + dag * dag + dab * dab) / (k_albedo_distance2 + av.sum(x)) +
-                             dd * dd / depth2 + dg * dg / (range_ * guide2);
+                             (dar * dar + dag * dag + dab * dab) / (k_albedo_distance2 + av.sum(x)) + dd * dd / depth2 +
+                             dg * dg / (range_ * guide2);
       weights[x] = used[x] * falling(distance);
       c3[x] = 4 * dnx, c4[x] = 4 * dny, c5[x] = 4 * dnz;
       c6[x] = 10 * dar, c7[x] = 10 * dag, c8[x] = 10 * dab;

@@ -36,6 +36,8 @@ std::vector<Method> gradient_methods() {
     methods.back().label += ", symmetric";
     methods.push_back(gradslc(gather, "random_replay"));
     methods.push_back(gradslc(gather, "block"));
+    methods.push_back(gradslc(gather, "block", {{"block/share_rays", false}}));
+    methods.back().label += ", own rays";
   }
   methods.push_back({"gpt", "gpt", {}});
   methods.push_back({"gpt random replay", "gpt", {{"shift", "random_replay"}}});

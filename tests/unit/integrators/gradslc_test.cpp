@@ -101,5 +101,17 @@ TEST(GradientStochasticLightcuts, DifferencesVanishWhereAllVerticesAreAlike) {
   }
 }
 
+TEST(GradientStochasticLightcuts, RaysOfTheirOwnDifferWithinABlock) {
+  const Scene scene = open_furnace(k_resolution);
+  for (const char* gather : {"descent", "tile"}) {
+    const Method method{gather, "gradslc", {{"shift", "block"}, {"gather", gather}, {"block/share_rays", false}}};
+    const Film film = render(method, scene, {.max_depth = 2, .components = {.emission = false, .indirect = false}});
+    int differing = 0;
+    for_each_moments(film,
+                     [&](const FilmHalf& half, Pixel pixel) { differing += std::abs(half.dx.mean(pixel).g) > 1e-4f; });
+    EXPECT_GT(differing, static_cast<int>(k_resolution.pixels()) / 2) << gather;
+  }
+}
+
 }  // namespace
 }  // namespace gradslc
