@@ -114,8 +114,9 @@ class Window {
     for (std::vector<float>& column : columns_) column.assign(side_ * row_, 1);
     const float place = 1 / static_cast<float>(radius_ + 1);
     for (std::size_t i = 0; i < side_ * row_; ++i) {
-      columns_[1][i] = (static_cast<float>(i % row_) - static_cast<float>(radius_)) * place;
-      columns_[2][i] = (static_cast<float>(i / row_) - static_cast<float>(radius_)) * place;
+      const std::size_t x = i % row_, y = i / row_;
+      columns_[1][i] = (static_cast<float>(x) - static_cast<float>(radius_)) * place;
+      columns_[2][i] = (static_cast<float>(y) - static_cast<float>(radius_)) * place;
     }
   }
 

@@ -121,25 +121,32 @@ Triple compute_residual(const ScreenedPoissonProblem& problem, const PlanarField
   return roots(sum_over_rows(resolution, [&](std::size_t y, std::size_t c) {
     const double* plane = &image[c * resolution.pixels()];
     const int channel = static_cast<int>(c);
-    const double scale = unit[c] > 0 ? 1 / unit[c] : 0;
+    const std::size_t first = y * width;
     // What the difference from pixel i to pixel j lacks, times its weight.
     const auto flux = [&](const RgbImage& gradient, const Image<float>& weight, std::size_t i, std::size_t j) {
       return static_cast<double>(weight[i]) * (static_cast<double>(gradient[i][channel]) - (plane[j] - plane[i]));
     };
-    double row_sum = 0, from_left = 0;
+    std::vector<double> row(width), to_right(width);
+    for (std::size_t x = 0; x < width; ++x)
+      row[x] = static_cast<double>(weights.primal[first + x]) *
+               (static_cast<double>(problem.primal[first + x][channel]) - plane[first + x]);
+    for (std::size_t x = 0; x + 1 < width; ++x) to_right[x] = flux(problem.dx, weights.dx, first + x, first + x + 1);
+    for (std::size_t x = 0; x + 1 < width; ++x) row[x] -= to_right[x];
+    for (std::size_t x = 1; x < width; ++x) row[x] += to_right[x - 1];
+    if (y > 0)
+      for (std::size_t x = 0; x < width; ++x) row[x] += flux(problem.dy, weights.dy, first - width + x, first + x);
+    if (y + 1 < height)
+      for (std::size_t x = 0; x < width; ++x) row[x] -= flux(problem.dy, weights.dy, first + x, first + width + x);
+
+    const double scale = unit[c] > 0 ? 1 / unit[c] : 0;
+    float* scaled = &residual[c * resolution.pixels() + first];
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
     for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t i = y * width + x;
-      const double to_right = x + 1 < width ? flux(problem.dx, weights.dx, i, i + 1) : 0;
-      double value =
-          static_cast<double>(weights.primal[i]) * (static_cast<double>(problem.primal[i][channel]) - plane[i]);
-      value += from_left - to_right;
-      from_left = to_right;
-      if (y > 0) value += flux(problem.dy, weights.dy, i - width, i);
-      if (y + 1 < height) value -= flux(problem.dy, weights.dy, i, i + width);
-      residual[c * resolution.pixels() + i] = static_cast<float>(value * scale);
-      row_sum += value * value;
+      scaled[x] = static_cast<float>(row[x] * scale);
+      sum += row[x] * row[x];
     }
-    return row_sum;
+    return sum;
   }));
 }
 
