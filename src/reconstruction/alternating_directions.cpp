@@ -7,6 +7,8 @@
 namespace gradslc {
 namespace {
 
+constexpr std::size_t k_most_steps = 64;  // enough for any weights that floats can hold
+
 /// n shifts for eigenvalues in [lowest, highest], near the best there are: Jacobi's elliptic function dn, by the first
 /// terms of its theta series (Wachspress 1966, chapter 6).
 std::vector<double> shifts(double lowest, double highest, std::size_t n) {
@@ -40,7 +42,7 @@ AlternatingDirections::AlternatingDirections(Resolution resolution, const Unifor
     : resolution_(resolution) {
   const double lowest = weights.primal / 2, highest = lowest + 4 * std::max(weights.dx, weights.dy);
   std::vector<double> chosen = shifts(lowest, highest, 1);
-  while (std::pow(largest_product(lowest, highest, chosen), 2) > remaining)
+  while (chosen.size() < k_most_steps && std::pow(largest_product(lowest, highest, chosen), 2) > remaining)
     chosen = shifts(lowest, highest, chosen.size() + 1);
   for (const double shift : chosen)
     steps_.push_back({shift, factorised(resolution.width, shift + lowest, weights.dx),
