@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/parallel.h"
+#include "reconstruction/box_sums.h"
 
 namespace gradslc {
 namespace {
@@ -20,13 +20,6 @@ struct Products {
   }
 };
 
-template <class Body>
-void for_each_row(int height, const Body& body) {
-  parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
-  });
-}
-
 float dot(Rgb a, Rgb b) { return a.r * b.r + a.g * b.g + a.b * b.b; }
 
 Image<Products> products(const RgbImage& from, const RgbImage& towards, const RgbImage& judge) {
@@ -34,7 +27,7 @@ Image<Products> products(const RgbImage& from, const RgbImage& towards, const Rg
   for (const Rgb& value : from) square_sum += static_cast<double>(dot(value, value));
   const auto dark = static_cast<float>(k_dark * square_sum / static_cast<double>(from.size()));
   Image<Products> found(from.resolution());
-  for_each_row(from.height(), [&](int y) {
+  for_each_row(from.resolution(), [&](int y) {
     for (int x = 0; x < from.width(); ++x) {
       const Rgb start = from(x, y), way = towards(x, y) - start;
       const float size = dot(towards(x, y), towards(x, y)) + dark;
@@ -42,20 +35,6 @@ Image<Products> products(const RgbImage& from, const RgbImage& towards, const Rg
     }
   });
   return found;
-}
-
-Image<Products> box_sums(const Image<Products>& values, int radius) {
-  const int width = values.width(), height = values.height();
-  Image<Products> rows(values.resolution()), boxes(values.resolution());
-  for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      for (int i = std::max(0, x - radius); i <= std::min(width - 1, x + radius); ++i) rows(x, y) += values(i, y);
-  });
-  for_each_row(height, [&](int y) {
-    for (int j = std::max(0, y - radius); j <= std::min(height - 1, y + radius); ++j)
-      for (int x = 0; x < width; ++x) boxes(x, y) += rows(x, j);
-  });
-  return boxes;
 }
 
 }  // namespace

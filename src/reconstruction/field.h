@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 
-#include "core/image.h"
-#include "core/parallel.h"
+#include "reconstruction/rows.h"
 
 namespace gradslc {
 
@@ -33,25 +31,6 @@ class PlanarField {
   std::unique_ptr<T[]> values_;
 };
 using Field = PlanarField<float>;
-
-/// Rows that a thread takes at a time.
-inline std::size_t rows_per_chunk(Resolution resolution) {
-  constexpr std::size_t k_pixels_per_chunk = 16384;
-  return std::max<std::size_t>(1, k_pixels_per_chunk / static_cast<std::size_t>(resolution.width));
-}
-
-/// Calls body(y) for all rows on all threads, or at once where there is little to do.
-template <class Body>
-void for_each_row(Resolution resolution, const Body& body) {
-  const auto rows = static_cast<std::size_t>(resolution.height), per_chunk = rows_per_chunk(resolution);
-  const auto some_rows = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
-  };
-  if (rows <= per_chunk)
-    some_rows(0, rows);
-  else
-    parallel_for(rows, per_chunk, some_rows);
-}
 
 /// Calls body(y, index of the row's first value) for all rows of all channels.
 template <class Body>

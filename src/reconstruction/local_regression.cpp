@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "reconstruction/weights.h"
+#include "reconstruction/box_sums.h"
 
 namespace gradslc {
 namespace {
@@ -235,31 +235,19 @@ RgbImage filter(const FilterInput& input, const RegressionOptions& options) {
 
 Image<float> variance_of_halves(const RgbImage& a, const RgbImage& b) {
   constexpr int k_radius = 5;
-  const int width = a.width(), height = a.height();
-  Image<float> rows(a.resolution()), boxes(a.resolution());
-  const auto for_each_row = [&](const auto& body) {
-    parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
-    });
+  Image<float> half_squares(a.resolution());
+  for (std::size_t i = 0; i < half_squares.size(); ++i) {
+    const float difference = luminance(a[i]) - luminance(b[i]);
+    half_squares[i] = 0.5f * difference * difference;
+  }
+  Image<float> variance = box_sums(half_squares, k_radius);
+  const auto covered = [](int at, int end) {
+    return std::min(end - 1, at + k_radius) - std::max(0, at - k_radius) + 1;
   };
-  const auto half_square = [&](int x, int y) {
-    const float difference = luminance(a(x, y)) - luminance(b(x, y));
-    return 0.5f * difference * difference;
-  };
-  for_each_row([&](int y) {
-    for (int x = 0; x < width; ++x)
-      for (int i = std::max(0, x - k_radius); i <= std::min(width - 1, x + k_radius); ++i)
-        rows(x, y) += half_square(i, y);
-  });
-  for_each_row([&](int y) {
-    const int first = std::max(0, y - k_radius), last = std::min(height - 1, y + k_radius);
-    for (int x = 0; x < width; ++x) {
-      const int columns = std::min(width - 1, x + k_radius) - std::max(0, x - k_radius) + 1;
-      for (int j = first; j <= last; ++j) boxes(x, y) += rows(x, j);
-      boxes(x, y) /= static_cast<float>(columns * (last - first + 1));
-    }
-  });
-  return boxes;
+  for (int y = 0; y < variance.height(); ++y)
+    for (int x = 0; x < variance.width(); ++x)
+      variance(x, y) /= static_cast<float>(covered(x, variance.width()) * covered(y, variance.height()));
+  return variance;
 }
 
 std::array<RgbImage, 2> cross_filter(const RgbImage& a, const RgbImage& b, const FeatureBuffers& features,

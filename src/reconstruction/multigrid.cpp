@@ -1,11 +1,7 @@
 #include "reconstruction/multigrid.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 #include <utility>
-
-#include "core/parallel.h"
 
 namespace gradslc {
 namespace {

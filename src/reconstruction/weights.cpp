@@ -5,14 +5,13 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/parallel.h"
+#include "reconstruction/box_sums.h"
 
 namespace gradslc {
 namespace {
 
 constexpr double k_floor = 1e-3;         ///< of a term's mean variance
 constexpr double k_lowest_floor = 1e-6;  ///< of the largest mean variance of the three terms
-constexpr std::size_t k_rows_per_chunk = 16;
 
 /// The pixels at which a term has values: dx has none in the last column, dy none in the last row.
 struct Term {
@@ -48,13 +47,6 @@ struct KnownSum {
   }
 };
 
-template <class Body>
-void for_each_row(int height, const Body& body) {
-  parallel_for(static_cast<std::size_t>(height), k_rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
-  });
-}
-
 KnownSum sample_variance(const Term& term, int x, int y) {
   const Rgb variance = (*term.variance)(x, y);
   const float count = (*term.count)(x, y);
@@ -66,26 +58,10 @@ KnownSum sample_variance(const Term& term, int x, int y) {
 
 Image<KnownSum> sample_variances(const Term& term) {
   Image<KnownSum> values(term.used);
-  for_each_row(term.used.height, [&](int y) {
+  for_each_row(term.used, [&](int y) {
     for (int x = 0; x < term.used.width; ++x) values(x, y) = sample_variance(term, x, y);
   });
   return values;
-}
-
-/// Sums over boxes of (2 radius + 1)^2 pixels, less at the border. Summed anew for each pixel: a running sum would keep
-/// the rounding error of the largest value that it has passed.
-Image<KnownSum> box_sums(const Image<KnownSum>& values, int radius) {
-  const int width = values.width(), height = values.height();
-  Image<KnownSum> rows(values.resolution()), boxes(values.resolution());
-  for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      for (int i = std::max(0, x - radius); i <= std::min(width - 1, x + radius); ++i) rows(x, y) += values(i, y);
-  });
-  for_each_row(height, [&](int y) {
-    for (int j = std::max(0, y - radius); j <= std::min(height - 1, y + radius); ++j)
-      for (int x = 0; x < width; ++x) boxes(x, y) += rows(x, j);
-  });
-  return boxes;
 }
 
 /// Mean over the known pixels; nothing where there are none.
@@ -112,7 +88,7 @@ struct SupportedVariances {
 /// factor count / (v + floor); 0 without samples.
 Image<float> inverse_variances(const Term& weighted, const SupportedVariances& variances, double floor, double factor) {
   Image<float> weights(weighted.count->resolution());
-  for_each_row(weighted.used.height, [&](int y) {
+  for_each_row(weighted.used, [&](int y) {
     for (int x = 0; x < weighted.used.width; ++x) {
       const auto count = static_cast<double>((*weighted.count)(x, y));
       weights(x, y) = static_cast<float>(factor * count / (variances.at(x, y) + floor));

@@ -57,6 +57,22 @@ TEST(LocalRegression, LeavesLinearFunctionsOfPlaceAsTheyAre) {
   }
 }
 
+// Where all pixels of a window weigh the same the fit at its centre is their mean: the slopes see nothing of it.
+TEST(LocalRegression, SpreadsASinglePixelOverItsWindow) {
+  RgbImage values(k_resolution, Rgb(1));
+  const Pixel centre{k_resolution.width / 2, k_resolution.height / 2};
+  values[centre] = Rgb(5, 3, 2);
+  const RgbImage guide(k_resolution, Rgb(1));
+  const Image<float> variance(k_resolution, 1);
+  for (const bool first_order : {true, false})
+    for (const int radius : {1, 3, 6}) {
+      const RegressionOptions options{.radius = radius, .first_order = first_order};
+      const Rgb filtered = filter({values, guide, variance, flat_features(k_resolution)}, options)[centre];
+      const auto pixels = static_cast<float>((2 * radius + 1) * (2 * radius + 1));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(filtered[c], 1 + (values[centre][c] - 1) / pixels, 1e-5f) << radius;
+    }
+}
+
 TEST(LocalRegression, FollowsAlbedo) {
   RgbImage truth(k_resolution);
   FeatureBuffers features = flat_features(k_resolution);

@@ -30,6 +30,19 @@ TEST(ScreenedPoisson, MatchesADenseSolution) {
   for (const Resolution size : k_sizes) expect_dense_solution(RandomProblem(size, 1));
 }
 
+// Solved by alternating directions: alike, and alike but for a factor of 3.
+TEST(ScreenedPoisson, MatchesADenseSolutionWhereWeightsAreNearlyAlike) {
+  for (const Resolution size : k_sizes)
+    for (const float spread : {0.0f, 2.0f}) {
+      RandomProblem random(size, 9);
+      const auto draw_in = [&](float least, Image<float>& weights) {
+        for (float& weight : weights) weight = least * (1 + spread * weight / (weight + 1));
+      };
+      draw_in(0.04f, random.weights.primal), draw_in(1, random.weights.dx), draw_in(0.7f, random.weights.dy);
+      expect_dense_solution(random);
+    }
+}
+
 TEST(ScreenedPoisson, MatchesADenseSolutionWherePrimalWeightsAreZero) {
   for (const Resolution size : k_sizes) {
     RandomProblem random(size, 2, 0.04f, 0.7f);
